@@ -1,0 +1,44 @@
+#pragma once
+
+/// A model with its points moved: its own file with the changed numbers replaced.
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+
+#include "deform/model/model.h"
+
+namespace espalier {
+
+/// What deforming does to normals.
+enum class NormalMode : std::uint8_t {
+  Deform,  ///< each turns; one shared by points where it turns differently becomes several
+  Keep,    ///< each turns to the mean of what its points ask for; none is added
+  Add,     ///< as Deform; a model without any gets smooth ones if a point moved
+};
+
+/// The bytes of `model` with its points at `points` and its normals turned to `pair_normals`.
+///
+/// points: #P × 3. A point whose bits are those of model.points() keeps its bytes, and so does a
+/// coordinate that is the same number at the file's precision (NumberEncoding); other
+/// coordinates are written as the shortest text that reads back as the same float or double.
+///
+/// pair_normals: #pairs × 3, unit, parallel to model.pairs(); or empty: all normals stay. One that
+/// stays within 1e-6 of its old direction, or has none, keeps its bytes. In mode Deform pairs that
+/// share a normal share the new one where theirs differ by no more than 1e-6; further ones
+/// follow it on lines of their own, and references whose numbers change are rewritten.
+///
+/// If nothing moved the bytes are the model's own.
+/// Throws ParameterError for a wrong number of points or normals, and for a point that is not
+/// finite or beyond kLargestCoordinate. O(bytes).
+[[nodiscard]] std::string deformed_bytes(const Model& model, std::span<const glm::dvec3> points,
+                                         std::span<const glm::dvec3> pair_normals,
+                                         NormalMode mode = NormalMode::Deform);
+
+/// The model that a file of deformed_bytes() holds: its points are rounded as written.
+[[nodiscard]] Model deformed(const Model& model, std::span<const glm::dvec3> points,
+                             std::span<const glm::dvec3> pair_normals,
+                             NormalMode mode = NormalMode::Deform);
+
+}  // namespace espalier

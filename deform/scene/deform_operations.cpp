@@ -1,0 +1,241 @@
+/// Operations that move models with lattices.
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "deform/evaluate/combine.h"
+#include "deform/evaluate/displace.h"
+#include "deform/model/deformed.h"
+#include "deform/model/point_selection.h"
+#include "deform/scene/bind.h"
+#include "deform/scene/operations.h"
+#include "lattice/core/error.h"
+
+namespace espalier {
+namespace {
+
+using Type = ParameterType;
+
+/// The vertices of every cell, cells sorted: what a lattice and its pose must have in common.
+std::vector<std::vector<VertexId>> sorted_cells(const CellComplex& complex) {
+  std::vector<std::vector<VertexId>> cells;
+  cells.reserve(complex.n_cells());
+  for (const CellId cell : complex.cells()) {
+    const auto vertices = complex.vertices(cell);
+    cells.emplace_back(vertices.begin(), vertices.end());
+  }
+  std::sort(cells.begin(), cells.end());
+  return cells;
+}
+
+void require_same_topology(const std::string& lattice_name, const CellComplex& lattice,
+                           const std::string& pose_name, const CellComplex& pose) {
+  if (lattice.n_vertices() != pose.n_vertices() || lattice.n_cells() != pose.n_cells()) {
+    throw LatticeError(pose_name + ": has " + std::to_string(pose.n_vertices()) + " vertices and " +
+                       std::to_string(pose.n_cells()) + " cells, the lattice " + lattice_name +
+                       " has " + std::to_string(lattice.n_vertices()) + " and " +
+                       std::to_string(lattice.n_cells()));
+  }
+  if (sorted_cells(lattice) != sorted_cells(pose)) {
+    throw LatticeError(pose_name + ": its cells are not those of the lattice " + lattice_name);
+  }
+}
+
+/// Unit normals for the model's (point, normal) pairs, each turned as the space round its point.
+std::vector<glm::dvec3> turned_normals(const Model& model,
+                                       const std::vector<glm::dmat3>& gradients) {
+  std::vector<glm::dvec3> normals;
+  normals.reserve(model.pairs().size());
+  for (const PointNormal& pair : model.pairs()) {
+    normals.push_back(turned_normal(gradients[static_cast<std::size_t>(pair.point)],
+                                    model.normals()[static_cast<std::size_t>(pair.normal)]));
+  }
+  return normals;
+}
+
+NormalMode normal_mode(const std::string& word) {
+  if (word == "keep") {
+    return NormalMode::Keep;
+  }
+  return word == "add" ? NormalMode::Add : NormalMode::Deform;
+}
+
+/// The control points that the i-th lattice of the arguments takes.
+std::vector<glm::dvec3> pose_of(const Scene& scene, const Arguments& arguments, std::size_t i) {
+  const std::string lattice_name = arguments.texts("lattice")[i];
+  const SubdivisionLattice& lattice = lattice_in(scene, lattice_name);
+  if (!arguments.has("pose")) {
+    const auto points = lattice.posed_points();
+    return {points.begin(), points.end()};
+  }
+  const std::string pose_name = arguments.texts("pose")[i];
+  const Pose& pose = pose_in(scene, pose_name);
+  require_same_topology(lattice_name, *lattice.complex, pose_name, pose.complex);
+  return pose.points;
+}
+
+/// An option that goes with each lattice must be given as often as they are, or not at all.
+void require_one_for_each_lattice(const Arguments& arguments, const std::string& name) {
+  const std::size_t n = arguments.texts(name).size();
+  const std::size_t n_lattices = arguments.texts("lattice").size();
+  if (n != 0 && n != n_lattices) {
+    throw ParameterError("'" + name + "' is given " + std::to_string(n) + " times for " +
+                         std::to_string(n_lattices) + " lattices: give one for each, in order");
+  }
+}
+
+Influence influence_of(const Model& model, const Arguments& arguments) {
+  const std::vector<std::string> only = arguments.texts("only");
+  return {arguments.number("strength"),
+          point_weights(model, only, arguments.has("weights") ? arguments.text("weights") : "")};
+}
+
+/// The scene with the model bound to the i-th lattice of the arguments.
+Scene bound_by(const Scene& scene, const Arguments& arguments, std::size_t i,
+               const Progress& progress) {
+  const std::string& model = arguments.text("model");
+  const std::string lattice = arguments.texts("lattice")[i];
+  BindOptions options;
+  if (arguments.has("binding")) {
+    options = {"", ""};
+  }
+  if (arguments.has("freeze")) {
+    options.freeze = arguments.text("freeze");
+  }
+  if (arguments.has("outside")) {
+    options.outside = arguments.text("outside");
+  }
+  if (arguments.has("binding")) {
+    return with_saved_binding(scene, model, lattice, arguments.texts("binding")[i], options,
+                              progress);
+  }
+  return with_bound(scene, model, lattice, options, progress);
+}
+
+Scene bind(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  const std::string& model = arguments.text("model");
+  const std::string& lattice = arguments.text("lattice");
+  Scene result = with_bound(scene, model, lattice,
+                            {arguments.text("freeze"), arguments.text("outside")}, progress);
+  save_binding(result, model, lattice, arguments.text("output"));
+  return result;
+}
+
+Scene deform(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  require_one_for_each_lattice(arguments, "pose");
+  require_one_for_each_lattice(arguments, "binding");
+  const std::string& model_name = arguments.text("model");
+  const Model& model = model_in(scene, model_name);
+  const Influence influence = influence_of(model, arguments);
+  const std::vector<std::string> lattices = arguments.texts("lattice");
+  Scene result = scene;
+  std::vector<LatticeMotion> motions;
+  for (std::size_t i = 0; i < lattices.size(); ++i) {
+    const std::vector<glm::dvec3> pose = pose_of(scene, arguments, i);
+    result = bound_by(result, arguments, i, progress);
+    const BoundModel& bound = result.bound.at({model_name, lattices[i]});
+    motions.push_back({bound.volume, bound.binding, bound.volume->displacements(pose)});
+  }
+  const std::vector<glm::dvec3> points = combined_points(model.points(), motions, influence);
+  std::vector<glm::dvec3> normals;
+  if (!model.pairs().empty()) {
+    normals = turned_normals(model, combined_gradients(points.size(), motions, influence));
+  }
+  Model moved = deformed(model, points, normals, normal_mode(arguments.text("normals")));
+  return with_model(std::move(result), arguments.text("output"), std::move(moved));
+}
+
+}  // namespace
+
+std::vector<Operation> deform_operations() {
+  return {
+      {"bind",
+       "Tie a model to a lattice once, for many deformations",
+       {{.name = "model",
+         .type = Type::Model,
+         .help = "the model (.obj)",
+         .is_required = true,
+         .is_positional = true},
+        {.name = "lattice",
+         .type = Type::Lattice,
+         .help = "the lattice at rest (.json, .ovm)",
+         .is_required = true},
+        {.name = "freeze",
+         .type = Type::Text,
+         .help = "adaptive[:TOLERANCE], or uniform:N, the lattice refined N times (default "
+                 "adaptive, 1e-5 of the lattice's diagonal)",
+         .fallback = Value(BindOptions().freeze)},
+        {.name = "outside",
+         .type = Type::Text,
+         .help = "what points outside the lattice do: keep (default), or falloff:D, follow its "
+                 "boundary, fading out over distance D",
+         .fallback = Value(BindOptions().outside)},
+        {.name = "output",
+         .type = Type::Path,
+         .help = "the binding, a file for `deform --binding`",
+         .is_required = true}},
+       bind},
+      {"deform",
+       "Deform a model with a lattice and its pose",
+       {{.name = "model",
+         .type = Type::Model,
+         .help = "the model (.obj)",
+         .is_required = true,
+         .is_positional = true},
+        {.name = "lattice",
+         .type = Type::Lattice,
+         .help = "the lattice at rest (.json, .ovm); may repeat: what they do to the model at rest "
+                 "adds up",
+         .is_required = true,
+         .is_list = true},
+        {.name = "pose",
+         .type = Type::Pose,
+         .help = "the lattice posed: its pose if it has one, else its points (default: the pose in "
+                 "--lattice); repeats in the lattices' order; on the command line a quoted pattern "
+                 "such "
+                 "as 'poses/*.json' for many poses in one run",
+         .is_list = true},
+        {.name = "strength",
+         .type = Type::Number,
+         .help = "how much of the motion is done, any number (default 1)",
+         .fallback = Value(1.0)},
+        {.name = "only",
+         .type = Type::Text,
+         .help = "only the points of this group or object, or @FILE: of these indices, one a line, "
+                 "from 0; may repeat (default: all points)",
+         .is_list = true},
+        {.name = "weights",
+         .type = Type::Path,
+         .help =
+             "a text file with a number from 0 to 1 for each point, one a line, that multiplies "
+             "its motion"},
+        {.name = "binding",
+         .type = Type::Path,
+         .help = "what `bind` wrote for this model and lattice; repeats in the lattices' order",
+         .is_list = true},
+        {.name = "freeze",
+         .type = Type::Text,
+         .help = "adaptive[:TOLERANCE], or uniform:N, the lattice refined N times (default: as the "
+                 "binding was, else adaptive, 1e-5 of the lattice's diagonal)"},
+        {.name = "outside",
+         .type = Type::Text,
+         .help = "what points outside the lattice do: keep, or falloff:D, follow its boundary, "
+                 "fading out over distance D (default: as the binding was, else keep)"},
+        {.name = "normals",
+         .type = Type::Choice,
+         .help = "deform them, keep their number, or add them where the file has none (default "
+                 "deform)",
+         .choices = {"deform", "keep", "add"},
+         .fallback = Value(std::string("deform"))},
+        {.name = "output",
+         .type = Type::Result,
+         .help = "the deformed model; {} stands for the pose's name without folder and extension",
+         .is_required = true}},
+       deform},
+  };
+}
+
+}  // namespace espalier

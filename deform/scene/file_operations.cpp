@@ -1,0 +1,112 @@
+/// Operations that bring files into the scene and objects out of it.
+
+#include <memory>
+#include <utility>
+
+#include "deform/model/model_file.h"
+#include "deform/scene/bind.h"
+#include "deform/scene/operations.h"
+#include "lattice/core/error.h"
+#include "lattice/core/file.h"
+#include "lattice/io/lattice_file.h"
+#include "lattice/io/vtu_writer.h"
+
+namespace espalier {
+namespace {
+
+std::string kind_of(const std::string& path) {
+  return is_lattice_path(path) ? "lattice" : "model";
+}
+
+/// A pose's cells must be a complex; where its points are does not matter.
+Pose read_pose(const std::string& path) {
+  RawLattice raw = read_raw_lattice(path);
+  try {
+    return {CellComplex(std::move(raw.polyhedra)), raw.pose.empty() ? raw.rest : raw.pose};
+  } catch (const LatticeError& error) {
+    throw LatticeError(path + ": " + error.what());
+  }
+}
+
+Scene open(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  const std::string& path = arguments.text("path");
+  const std::string& name = arguments.has("as") ? arguments.text("as") : path;
+  const std::string kind = arguments.has("kind") ? arguments.text("kind") : kind_of(path);
+  if (kind == "model") {
+    return with_model(scene, name, read_model(path));
+  }
+  if (kind == "lattice") {
+    return with_lattice(scene, name, read_lattice(path, progress));
+  }
+  Scene result = scene;
+  result.poses.insert_or_assign(name, std::make_shared<const Pose>(read_pose(path)));
+  return result;
+}
+
+/// What VTK is to draw of a lattice.
+std::string vtu_of(const SubdivisionLattice& lattice, const Arguments& arguments,
+                   const Progress& progress) {
+  const std::span<const glm::dvec3> controls =
+      arguments.flag("rest") ? lattice.rest : lattice.posed_points();
+  if (!arguments.flag("volume")) {
+    return vtu_text(*lattice.complex, controls);
+  }
+  const Volume volume = freeze(lattice, arguments.text("freeze"), progress);
+  return vtu_text(volume, volume.points(controls));
+}
+
+Scene save(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  const std::string& name = arguments.text("name");
+  const std::string& path = arguments.has("path") ? arguments.text("path") : name;
+  const bool is_vtu = scene.lattices.contains(name) && is_vtu_path(path);
+  for (const char* option : {"volume", "rest"}) {
+    if (arguments.flag(option) && !is_vtu) {
+      throw ParameterError(std::string("'") + option + "' is for lattices that become .vtu files");
+    }
+  }
+  if (is_vtu) {
+    write_file(path, vtu_of(lattice_in(scene, name), arguments, progress));
+  } else if (scene.lattices.contains(name)) {
+    write_lattice(path, lattice_in(scene, name));
+  } else {
+    write_model(path, model_in(scene, name));
+  }
+  return scene;
+}
+
+}  // namespace
+
+std::vector<Operation> file_operations() {
+  using Type = ParameterType;
+  return {
+      {"open",
+       "Read a model, a lattice or a pose from a file",
+       {{.name = "path", .type = Type::Path, .help = "the file", .is_required = true},
+        {.name = "as", .type = Type::Text, .help = "its name in the scene (default: the path)"},
+        {.name = "kind",
+         .type = Type::Choice,
+         .help = "what to read it as (default: by its extension)",
+         .choices = {"model", "lattice", "pose"}}},
+       open},
+      {"save",
+       "Write a model or a lattice to a file",
+       {{.name = "name",
+         .type = Type::ModelOrLattice,
+         .help = "what to write",
+         .is_required = true},
+        {.name = "path",
+         .type = Type::Path,
+         .help = "the file (default: the name); .vtu: a lattice's cells, for VTK"},
+        {.name = "volume",
+         .type = Type::Flag,
+         .help = ".vtu: the frozen volume, curved, instead of the control cells"},
+        {.name = "rest", .type = Type::Flag, .help = ".vtu: at rest instead of posed"},
+        {.name = "freeze",
+         .type = Type::Text,
+         .help = "of the volume: adaptive[:TOLERANCE], or uniform:N (default adaptive)",
+         .fallback = Value(std::string("adaptive"))}},
+       save},
+  };
+}
+
+}  // namespace espalier

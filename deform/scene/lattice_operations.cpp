@@ -1,0 +1,248 @@
+/// Operations that make lattices and refine them.
+
+#include <array>
+#include <utility>
+
+#include "deform/model/surface_model.h"
+#include "deform/scene/operations.h"
+#include "lattice/build/extrude.h"
+#include "lattice/build/primitives.h"
+#include "lattice/core/error.h"
+#include "lattice/core/text_scanner.h"
+#include "lattice/io/lattice_file.h"
+#include "lattice/subdivision/refine.h"
+
+namespace espalier {
+namespace {
+
+using Type = ParameterType;
+
+const std::vector<std::string> kSchemes = {"catmull-clark", "mj96"};
+
+Parameter result_parameter(const char* help) {
+  return {.name = "output", .type = Type::Result, .help = help, .is_required = true};
+}
+
+Parameter scheme_parameter() {
+  return {.name = "scheme",
+          .type = Type::Choice,
+          .help = "rules at extraordinary lines (default catmull-clark)",
+          .choices = kSchemes};
+}
+
+Scheme scheme_of(const Arguments& arguments, Scheme fallback) {
+  return arguments.has("scheme") ? *scheme_named(arguments.text("scheme")) : fallback;
+}
+
+Parameter sharp_parameter() {
+  return {.name = "sharp",
+          .type = Type::Text,
+          .help = "creases: auto, none, or angle:DEGREES for edges that bend more (default auto)",
+          .fallback = Value(std::string("auto"))};
+}
+
+/// Tags by "auto", "none" or "angle:DEGREES".
+Sharpness sharpness_of(const SubdivisionLattice& lattice, const std::string& word) {
+  static const std::string kAngle = "angle:";
+  double degrees = 0;
+  if (word == "auto") {
+    return automatic_sharpness(*lattice.complex);
+  }
+  if (word == "none") {
+    return smooth_sharpness(*lattice.complex);
+  }
+  if (!word.starts_with(kAngle) ||
+      !parse_number(std::string_view(word).substr(kAngle.size()), degrees) ||
+      !(degrees >= 0 && degrees <= 180)) {
+    throw ParameterError("'sharp' is '" + word +
+                         "', must be auto, none or angle:DEGREES from 0 to 180");
+  }
+  return sharpness_by_angle(*lattice.complex, lattice.rest, degrees);
+}
+
+Scene add_lattice(const Scene& scene, const Arguments& arguments, CellMesh mesh,
+                  const Progress& progress) {
+  RawLattice raw;
+  raw.polyhedra = std::move(mesh.cells);
+  raw.rest = std::move(mesh.points);
+  raw.scheme = scheme_of(arguments, Scheme::CatmullClark);
+  const std::string& name = arguments.text("output");
+  SubdivisionLattice lattice = build_lattice(std::move(raw), name, progress);
+  if (arguments.has("sharp")) {
+    lattice.sharpness = sharpness_of(lattice, arguments.text("sharp"));
+  }
+  return with_lattice(scene, name, std::move(lattice));
+}
+
+Scene new_box(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  const auto n = arguments.integers("cells");
+  std::array<int, 3> cells{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (n[axis] < 1 || n[axis] > 100000) {
+      throw ParameterError("'cells' must be three numbers from 1 to 100000");
+    }
+    cells[axis] = static_cast<int>(n[axis]);
+  }
+  CellMesh mesh = make_box(cells, arguments.vector("min"), arguments.vector("max"));
+  return add_lattice(scene, arguments, std::move(mesh), progress);
+}
+
+Scene new_cylinder(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  CylinderOptions options;
+  options.from = arguments.vector("from");
+  options.to = arguments.vector("to");
+  options.radius = arguments.number("radius");
+  if (arguments.has("end-radius")) {
+    options.end_radius = arguments.number("end-radius");
+    if (options.end_radius == 0) {
+      throw ParameterError("'end-radius' must be positive: wedge cells cannot end in a point");
+    }
+  }
+  options.sectors = arguments.integer("sectors");
+  options.layers = arguments.integer("layers");
+  return add_lattice(scene, arguments, make_cylinder(options), progress);
+}
+
+/// A lattice converts to itself: what changes is its file. Its tags stay.
+Scene convert_lattice(const Scene& scene, const Arguments& arguments) {
+  for (const char* option : {"extrude", "layers", "sharp"}) {
+    if (arguments.has(option)) {
+      throw ParameterError(std::string("'") + option + "' is for surface meshes, not for lattices");
+    }
+  }
+  SubdivisionLattice lattice = lattice_in(scene, arguments.text("mesh"));
+  lattice.scheme = scheme_of(arguments, lattice.scheme);
+  return with_lattice(scene, arguments.text("output"), std::move(lattice));
+}
+
+Scene convert(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  const std::string& name = arguments.text("mesh");
+  if (scene.lattices.contains(name)) {
+    return convert_lattice(scene, arguments);
+  }
+  const Model& model = model_in(scene, name);
+  if (!arguments.has("extrude")) {
+    throw ParameterError("'extrude' is missing: direction and length dx dy dz");
+  }
+  if (model.faces().empty()) {
+    throw ParameterError(name + ": has no faces to extrude");
+  }
+  CellMesh mesh = extrude(model.points(), model.faces(), arguments.vector("extrude"),
+                          arguments.has("layers") ? arguments.integer("layers") : 1);
+  return add_lattice(scene, arguments, std::move(mesh), progress);
+}
+
+Scene refine_object(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  const std::string& name = arguments.text("input");
+  const std::string& output = arguments.text("output");
+  const int levels = arguments.integer("levels");
+  if (levels < 1 || levels > 8) {
+    throw ParameterError("'levels' must be 1 to 8");
+  }
+  if (scene.models.contains(name)) {
+    if (arguments.has("scheme")) {
+      throw ParameterError(
+          "'scheme' is for lattices; a model is refined as a Catmull-Clark surface");
+    }
+    return with_model(scene, output, refined_model(model_in(scene, name), levels, output));
+  }
+  SubdivisionLattice lattice = lattice_in(scene, name);
+  lattice.scheme = scheme_of(arguments, lattice.scheme);
+  return with_lattice(scene, output, refined(lattice, levels, progress));
+}
+
+}  // namespace
+
+std::vector<Operation> lattice_operations() {
+  using Numbers3 = std::vector<double>;
+  return {
+      {"new box",
+       "Make a box of hexahedral cells",
+       {{.name = "cells",
+         .type = Type::Integers,
+         .help = "cells along x, y, z (default 2 2 2)",
+         .count = 3,
+         .fallback = Value(std::vector<std::int64_t>{2, 2, 2})},
+        {.name = "min",
+         .type = Type::Numbers,
+         .help = "lowest corner (default 0 0 0)",
+         .count = 3,
+         .fallback = Value(Numbers3{0, 0, 0})},
+        {.name = "max",
+         .type = Type::Numbers,
+         .help = "highest corner (default 1 1 1)",
+         .count = 3,
+         .fallback = Value(Numbers3{1, 1, 1})},
+        scheme_parameter(),
+        sharp_parameter(),
+        result_parameter("the lattice, .json or .ovm")},
+       new_box},
+      {"new cylinder",
+       "Make a round bar of wedge cells, to wrap a limb",
+       {{.name = "from",
+         .type = Type::Numbers,
+         .help = "centre of the first end (default 0 0 0)",
+         .count = 3,
+         .fallback = Value(Numbers3{0, 0, 0})},
+        {.name = "to",
+         .type = Type::Numbers,
+         .help = "centre of the second end (default 0 1 0)",
+         .count = 3,
+         .fallback = Value(Numbers3{0, 1, 0})},
+        {.name = "radius",
+         .type = Type::Number,
+         .help = "of the space it fills; its control points lie farther out (default 0.5)",
+         .fallback = Value(0.5)},
+        {.name = "end-radius",
+         .type = Type::Number,
+         .help = "at the second end (default: the same)"},
+        {.name = "sectors",
+         .type = Type::Integer,
+         .help = "wedges round the axis (default 8)",
+         .fallback = Value(std::int64_t{8})},
+        {.name = "layers",
+         .type = Type::Integer,
+         .help = "cells along the axis (default 4)",
+         .fallback = Value(std::int64_t{4})},
+        scheme_parameter(),
+        sharp_parameter(),
+        result_parameter("the lattice, .json or .ovm")},
+       new_cylinder},
+      {"convert",
+       "Make a lattice from a surface mesh by extruding it, or write a lattice in another format",
+       {{.name = "mesh",
+         .type = Type::ModelOrLattice,
+         .help = "an open surface mesh (.obj), every face of which becomes a stack of cells; or a "
+                 "lattice (.json, .ovm)",
+         .is_required = true,
+         .is_positional = true},
+        {.name = "extrude",
+         .type = Type::Numbers,
+         .help = "direction and length dx dy dz, for a mesh",
+         .count = 3},
+        {.name = "layers", .type = Type::Integer, .help = "cells along the direction (default 1)"},
+        scheme_parameter(),
+        {.name = "sharp", .type = Type::Text, .help = sharp_parameter().help},
+        result_parameter("the lattice, .json, .ovm, or .vtu for VTK and ParaView")},
+       convert},
+      {"refine",
+       "Subdivide a lattice, or a model as a Catmull-Clark surface",
+       {{.name = "input",
+         .type = Type::ModelOrLattice,
+         .help = "a lattice (.json, .ovm), or a model (.obj)",
+         .is_required = true,
+         .is_positional = true},
+        {.name = "levels",
+         .type = Type::Integer,
+         .help = "how often (default 1)",
+         .fallback = Value(std::int64_t{1})},
+        {.name = "scheme",
+         .type = Type::Choice,
+         .help = "rules at extraordinary lines (default: the lattice's own)",
+         .choices = kSchemes},
+        result_parameter("the refined lattice or model")},
+       refine_object},
+  };
+}
+
+}  // namespace espalier

@@ -1,0 +1,23 @@
+#pragma once
+
+/// The table of all operations.
+
+#include <string_view>
+#include <vector>
+
+#include "deform/scene/operation.h"
+
+namespace espalier {
+
+/// In the order in which users meet them: open, new …, convert, refine, bind, deform, save.
+[[nodiscard]] const std::vector<Operation>& operations();
+
+/// The operation with a name. Throws ParameterError if there is none.
+[[nodiscard]] const Operation& operation_named(std::string_view name);
+
+// The table's parts.
+[[nodiscard]] std::vector<Operation> file_operations();
+[[nodiscard]] std::vector<Operation> lattice_operations();
+[[nodiscard]] std::vector<Operation> deform_operations();
+
+}  // namespace espalier

@@ -1,0 +1,52 @@
+#pragma once
+
+/// What a user works on, as a value: models, lattices, poses, and models tied to lattices.
+
+#include <glm/vec3.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "deform/embed/embed.h"
+#include "deform/model/model.h"
+#include "lattice/subdivision/subdivision_lattice.h"
+#include "lattice/volume/volume.h"
+
+namespace espalier {
+
+/// Control points to move a lattice to, with the topology they are meant for. They may fold.
+struct Pose {
+  CellComplex complex;
+  std::vector<glm::dvec3> points;  ///< #vertices, model units
+};
+
+/// A model tied to a lattice at rest. It stands for these very values: an operation that replaces
+/// the model or the lattice drops it.
+struct BoundModel {
+  std::string freeze;  ///< the options it was bound with, see BindOptions
+  std::string outside;
+  std::shared_ptr<const Volume> volume;
+  std::shared_ptr<const Binding> binding;
+};
+
+/// Copies are cheap: they share everything that did not change. Names are those of the files, or
+/// any others.
+struct Scene {
+  std::map<std::string, Model> models;
+  std::map<std::string, std::shared_ptr<const SubdivisionLattice>> lattices;
+  std::map<std::string, std::shared_ptr<const Pose>> poses;
+  std::map<std::pair<std::string, std::string>, BoundModel> bound;  ///< by (model, lattice)
+};
+
+/// The named object. Throw ParameterError if the scene has none of that name.
+[[nodiscard]] const Model& model_in(const Scene& scene, const std::string& name);
+[[nodiscard]] const SubdivisionLattice& lattice_in(const Scene& scene, const std::string& name);
+[[nodiscard]] const Pose& pose_in(const Scene& scene, const std::string& name);
+
+/// The scene with an object added or replaced.
+[[nodiscard]] Scene with_model(Scene scene, const std::string& name, Model model);
+[[nodiscard]] Scene with_lattice(Scene scene, const std::string& name, SubdivisionLattice lattice);
+
+}  // namespace espalier

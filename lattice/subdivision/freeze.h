@@ -1,0 +1,35 @@
+#pragma once
+
+/// Freezing a Catmull-Clark lattice into a volume.
+
+#include "lattice/core/progress.h"
+#include "lattice/subdivision/subdivision_lattice.h"
+#include "lattice/volume/volume.h"
+
+namespace espalier {
+
+/// [MJ96]'s own method: `levels` refinements everywhere, then every hexahedron is one trilinear
+/// patch, and every other cell, of type n, 2n pyramids from its faces to its centroid. A pyramid
+/// over the bilinear face meets its neighbours exactly, where the paper's tetrahedra leave slits.
+/// The error falls by about 4 a level, the cells grow by 8. Throws ParameterError unless levels is
+/// 1 to 8. Tells `progress` "refine".
+[[nodiscard]] Volume freeze_uniform(const SubdivisionLattice& lattice, int levels,
+                                    const Progress& progress = {});
+
+/// How exact an adaptive freeze is.
+struct AdaptiveOptions {
+  double tolerance = 1e-5;  ///< of positions, relative to the lattice's diagonal, for moves of
+                            ///< about a cell; 1e-12 to 1e-1
+  int most_levels = 8;      ///< of refinement in all directions, 1 to 8
+};
+
+/// Regular cells become one tricubic patch, exactly. Line cells (scheme catmull-clark) become
+/// bicubic × cubic patches, exactly but for small leaves at their extraordinary corners, isolated
+/// across the line only: patches grow linearly with −log(tolerance). Other cells are refined in all
+/// directions, as often as the tolerance asks and most_levels allows, down to trilinear patches and
+/// pyramids. Throws ParameterError for options out of range. Tells `progress` "freeze".
+[[nodiscard]] Volume freeze_adaptive(const SubdivisionLattice& lattice,
+                                     const AdaptiveOptions& options = {},
+                                     const Progress& progress = {});
+
+}  // namespace espalier

@@ -1,0 +1,111 @@
+#include "lattice/volume/stencil_table.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "lattice/core/parallel.h"
+
+namespace espalier {
+namespace {
+
+constexpr std::size_t kRowsPerRange = 2048;
+
+/// The rows of one range, before they are joined.
+struct Block {
+  std::vector<std::uint32_t> lengths;
+  std::vector<std::int32_t> indices;
+  std::vector<double> weights;
+};
+
+}  // namespace
+
+void StencilRow::reset(std::size_t n_controls) {
+  for (const std::int32_t index : touched_) {
+    weights_[static_cast<std::size_t>(index)] = 0;
+    is_touched_[static_cast<std::size_t>(index)] = 0;
+  }
+  touched_.clear();
+  if (weights_.size() < n_controls) {
+    weights_.resize(n_controls, 0);
+    is_touched_.resize(n_controls, 0);
+  }
+}
+
+StencilTable StencilTable::build(std::size_t n_rows, std::size_t n_controls,
+                                 const std::function<void(std::size_t, StencilRow&)>& fill) {
+  std::vector<Block> blocks((n_rows + kRowsPerRange - 1) / kRowsPerRange);
+  parallel_ranges(n_rows, kRowsPerRange, [&](std::size_t begin, std::size_t end) {
+    Block& block = blocks[begin / kRowsPerRange];
+    thread_local StencilRow row;  // as large as the widest table so far; cleared row by row
+    for (std::size_t i = begin; i < end; ++i) {
+      row.reset(n_controls);
+      fill(i, row);
+      std::sort(row.touched_.begin(), row.touched_.end());
+      const std::size_t length_before = block.indices.size();
+      for (const std::int32_t index : row.touched_) {
+        const double weight = row.weights_[static_cast<std::size_t>(index)];
+        if (weight != 0) {
+          block.indices.push_back(index);
+          block.weights.push_back(weight);
+        }
+      }
+      block.lengths.push_back(static_cast<std::uint32_t>(block.indices.size() - length_before));
+    }
+  });
+  StencilTable table;
+  table.n_controls_ = n_controls;
+  table.offsets_.reserve(n_rows + 1);
+  std::size_t n_weights = 0;
+  for (const Block& block : blocks) {
+    n_weights += block.indices.size();
+  }
+  table.indices_.reserve(n_weights);
+  table.weights_.reserve(n_weights);
+  for (Block& block : blocks) {
+    for (const std::uint32_t length : block.lengths) {
+      table.offsets_.push_back(table.offsets_.back() + length);
+    }
+    table.indices_.insert(table.indices_.end(), block.indices.begin(), block.indices.end());
+    table.weights_.insert(table.weights_.end(), block.weights.begin(), block.weights.end());
+    block = {};
+  }
+  return table;
+}
+
+std::vector<glm::dvec3> StencilTable::apply(std::span<const glm::dvec3> controls) const {
+  assert(controls.size() == n_controls_);
+  std::vector<glm::dvec3> points(n_rows());
+  parallel_for(
+      n_rows(),
+      [&](std::size_t i) {
+        const Row row = (*this)[i];
+        glm::dvec3 sum(0);
+        for (std::size_t k = 0; k < row.indices.size(); ++k) {
+          sum += row.weights[k] * controls[static_cast<std::size_t>(row.indices[k])];
+        }
+        points[i] = sum;
+      },
+      4096);
+  return points;
+}
+
+std::size_t StencilTable::bytes() const {
+  return offsets_.capacity() * sizeof(std::uint32_t) + indices_.capacity() * sizeof(std::int32_t) +
+         weights_.capacity() * sizeof(double);
+}
+
+StencilTable compose(const StencilTable& first, const StencilTable& second) {
+  assert(second.n_controls() == first.n_rows());
+  return StencilTable::build(
+      second.n_rows(), first.n_controls(), [&](std::size_t i, StencilRow& row) {
+        const StencilTable::Row outer = second[i];
+        for (std::size_t k = 0; k < outer.indices.size(); ++k) {
+          const StencilTable::Row inner = first[static_cast<std::size_t>(outer.indices[k])];
+          for (std::size_t l = 0; l < inner.indices.size(); ++l) {
+            row.add(inner.indices[l], outer.weights[k] * inner.weights[l]);
+          }
+        }
+      });
+}
+
+}  // namespace espalier

@@ -1,0 +1,55 @@
+#!/bin/sh
+# Builds Espalier on a Debian 12 and bends an arm, a disk and a block with lattices.
+# Leaves models, lattices and pictures in build/demo/. With --pictures it also makes the small
+# pictures of the README, in tools/pictures/, anew.
+set -eu
+cd "$(dirname "$0")/.."
+sh tools/build.sh build -DESPALIER_TESTS=OFF
+espalier="$PWD/build/bin/espalier"
+data="$PWD/tests/data"
+top=$PWD
+pictures=no
+[ "${1:-}" != --pictures ] || pictures=yes
+mkdir -p build/demo
+cd build/demo
+
+run() {
+  echo "\$ espalier $*"
+  "$espalier" "$@"
+}
+
+picture() {
+  name=$1
+  shift
+  run render "$@" --size 900x700 -o "$name.png"
+  if [ "$pictures" = yes ]; then
+    "$espalier" render "$@" --size 400x320 --quiet -o "$top/tools/pictures/$name.png"
+  fi
+}
+
+echo
+echo "== The arm: a lattice extruded along it lifts it and turns the hand"
+run refine "$data/figure.obj" --levels 3 -o figure.obj
+run convert "$data/arm_section.obj" --extrude 0.72 0 0 --layers 10 -o arm.json
+run info arm.json
+run deform figure.obj --lattice arm.json --pose "$data/arm_posed.json" -o waving.obj
+picture arm-before figure.obj arm.json --view 20,10
+picture arm-after waving.obj "$data/arm_posed.json" --view 20,10
+picture waving waving.obj --view 20,10
+
+echo
+echo "== The disk: wedges round a line of valence five make it a star"
+run deform "$data/disk.obj" --lattice "$data/star_posed.json" -o star.obj
+picture disk-before "$data/disk.obj" "$data/star_posed.json" --rest --view 25,20
+picture disk-after star.obj "$data/star_posed.json" --view 25,20
+
+echo
+echo "== The block: a barbell bends and twists it"
+run convert "$data/barbell_section.obj" --extrude 0 0 1.2 --layers 3 -o barbell.ovm
+run deform "$data/block.obj" --lattice barbell.ovm --pose "$data/barbell_posed.json" -o bent.obj
+picture block-before "$data/block.obj" barbell.ovm --view 20,35
+picture block-after bent.obj "$data/barbell_posed.json" --view 20,35
+
+echo
+echo "Models, lattices and pictures are in build/demo/:"
+ls -- *.png

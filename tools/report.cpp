@@ -1,0 +1,255 @@
+#include "tools/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "lattice/core/box.h"
+#include "lattice/topology/sharpness.h"
+#include "lattice/topology/validate.h"
+
+namespace espalier::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kDefectsShown = 20;
+
+Json to_json(const glm::dvec3& point) {
+  return Json::array({point.x, point.y, point.z});
+}
+
+/// How often each number occurs, as an object with the numbers as keys.
+Json histogram(const std::map<std::size_t, std::size_t>& counts) {
+  Json object = Json::object();
+  for (const auto& [number, count] : counts) {
+    object[std::to_string(number)] = count;
+  }
+  return object;
+}
+
+void add_bounds(Json& json, std::span<const glm::dvec3> points) {
+  const Box bounds = box_of(points);
+  json["min"] = points.empty() ? Json() : to_json(bounds.min);
+  json["max"] = points.empty() ? Json() : to_json(bounds.max);
+}
+
+Json valences(const CellComplex& complex) {
+  std::map<std::size_t, std::size_t> inner_edges;
+  std::map<std::size_t, std::size_t> boundary_edges;
+  for (const EdgeId edge : complex.edges()) {
+    ++(complex.is_boundary(edge) ? boundary_edges : inner_edges)[complex.half_faces(edge).size()];
+  }
+  std::map<std::size_t, std::size_t> cells;
+  for (const CellId cell : complex.cells()) {
+    ++cells[complex.half_faces(cell).size()];
+  }
+  return {{"faces_at_inner_edges", histogram(inner_edges)},
+          {"faces_at_boundary_edges", histogram(boundary_edges)},
+          {"faces_of_cells", histogram(cells)}};
+}
+
+Json tags(const Sharpness& sharpness) {
+  const auto is_infinite = [](float s) { return s >= kInfiniteSharpness; };
+  const auto is_semi = [](float s) { return s > 0 && s < kInfiniteSharpness; };
+  const auto& edges = sharpness.edges;
+  const auto& vertices = sharpness.vertices;
+  return {{"sharp_edges", std::count_if(edges.begin(), edges.end(), is_infinite)},
+          {"semi_sharp_edges", std::count_if(edges.begin(), edges.end(), is_semi)},
+          {"corners", std::count_if(vertices.begin(), vertices.end(), is_infinite)},
+          {"semi_sharp_vertices", std::count_if(vertices.begin(), vertices.end(), is_semi)}};
+}
+
+Json lattice_json(const SubdivisionLattice& lattice) {
+  const CellComplex& complex = *lattice.complex;
+  Json json = {{"type", "subdivision"},
+               {"scheme", name_of(lattice.scheme)},
+               {"vertices", complex.n_vertices()},
+               {"edges", complex.n_edges()},
+               {"faces", complex.n_faces()},
+               {"cells", complex.n_cells()},
+               {"valences", valences(complex)},
+               {"tags", tags(lattice.sharpness)},
+               {"has_pose", !lattice.pose.empty()},
+               {"valid", true},
+               {"defects", Json::array()}};
+  add_bounds(json, lattice.rest);
+  return json;
+}
+
+/// A lattice that is no valid one: its tables' sizes and what is wrong with them.
+Json defective_json(const LatticeReport& report) {
+  Json json = {{"type", "subdivision"},
+               {"scheme", name_of(report.raw.scheme)},
+               {"vertices", report.raw.polyhedra.n_vertices},
+               {"edges", nullptr},
+               {"faces", report.raw.polyhedra.faces.n_rows()},
+               {"cells", report.raw.polyhedra.cells.n_rows()},
+               {"has_pose", !report.raw.pose.empty()},
+               {"valid", false}};
+  Json defects = Json::array();
+  for (const Defect& defect : report.defects) {
+    defects.push_back({{"kind", name_of(defect.kind)},
+                       {"element", defect.element},
+                       {"index", defect.index < 0 ? Json() : Json(defect.index)},
+                       {"message", defect.message}});
+  }
+  json["defects"] = std::move(defects);
+  add_bounds(json, report.raw.rest);
+  return json;
+}
+
+std::string text_of(const glm::dvec3& point) {
+  return fmt::format("{:.6g} {:.6g} {:.6g}", point.x, point.y, point.z);
+}
+
+std::string histogram_text(const Json& counts) {
+  std::string text;
+  for (const auto& [number, count] : counts.items()) {
+    text += fmt::format("{}{} × {}", text.empty() ? "" : ", ", count.get<std::size_t>(), number);
+  }
+  return text.empty() ? "none" : text;
+}
+
+std::string counts_text(const CellComplex& complex) {
+  return fmt::format("{} vertices, {} edges, {} faces, {} cells", complex.n_vertices(),
+                     complex.n_edges(), complex.n_faces(), complex.n_cells());
+}
+
+std::string lattice_text(const SubdivisionLattice& lattice) {
+  const Json json = lattice_json(lattice);
+  const Box bounds = box_of(lattice.rest);
+  const Json& valence = json["valences"];
+  const Json& tag = json["tags"];
+  return fmt::format(
+      "subdivision lattice, {} scheme{}\n"
+      "  {}\n"
+      "  faces at inner edges     {}\n"
+      "  faces at boundary edges  {}\n"
+      "  faces of cells           {}\n"
+      "  sharp edges {}, semi-sharp {}; corners {}, semi-sharp {}\n"
+      "  box {}  to  {}\n"
+      "  valid\n",
+      name_of(lattice.scheme), lattice.pose.empty() ? "" : ", posed", counts_text(*lattice.complex),
+      histogram_text(valence["faces_at_inner_edges"]),
+      histogram_text(valence["faces_at_boundary_edges"]), histogram_text(valence["faces_of_cells"]),
+      tag["sharp_edges"].dump(), tag["semi_sharp_edges"].dump(), tag["corners"].dump(),
+      tag["semi_sharp_vertices"].dump(), text_of(bounds.min), text_of(bounds.max));
+}
+
+std::string defective_text(const LatticeReport& report) {
+  std::string text = fmt::format(
+      "subdivision lattice with {} vertices, {} faces, {} cells\n  not valid, {} defects\n",
+      report.raw.polyhedra.n_vertices, report.raw.polyhedra.faces.n_rows(),
+      report.raw.polyhedra.cells.n_rows(), report.defects.size());
+  for (std::size_t i = 0; i < std::min(report.defects.size(), kDefectsShown); ++i) {
+    text += fmt::format("  {}: {}\n", name_of(report.defects[i].kind), report.defects[i].message);
+  }
+  if (report.defects.size() > kDefectsShown) {
+    text +=
+        fmt::format("  … and {} more; --json lists all\n", report.defects.size() - kDefectsShown);
+  }
+  return text;
+}
+
+Json model_json(const Model& model) {
+  Json json = {{"type", "model"},
+               {"points", model.points().size()},
+               {"faces", model.faces().n_rows()},
+               {"normals", model.normals().size()}};
+  add_bounds(json, model.points());
+  return json;
+}
+
+Json counts_json(const StatusCounts& counts) {
+  return {{"inside", counts.inside},
+          {"border", counts.border},
+          {"outside", counts.outside},
+          {"unconverged", counts.unconverged}};
+}
+
+/// Names of files may be no UTF-8, which JSON is.
+std::string line(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// Adds how many points each lattice holds to a report in JSON and in text.
+void add_counts(const Scene& scene, Json& json, std::string& text) {
+  for (const auto& [names, bound] : scene.bound) {
+    const Json counts = counts_json(bound.binding->counts());
+    if (scene.bound.size() == 1) {
+      json.update(counts);
+    } else {
+      json["lattices"][names.second] = counts;
+      text += fmt::format("  {}:\n", names.second);
+    }
+    text += fmt::format("  {} inside, {} on the border, {} outside, {} unconverged\n",
+                        counts["inside"].dump(), counts["border"].dump(), counts["outside"].dump(),
+                        counts["unconverged"].dump());
+  }
+}
+
+}  // namespace
+
+std::string lattice_report(const LatticeReport& report, bool is_json) {
+  if (!report.defects.empty()) {
+    return is_json ? line(defective_json(report)) : defective_text(report);
+  }
+  const SubdivisionLattice lattice = build_lattice(report.raw, "");
+  return is_json ? line(lattice_json(lattice)) : lattice_text(lattice);
+}
+
+std::string model_report(const Model& model, bool is_json) {
+  if (is_json) {
+    return line(model_json(model));
+  }
+  const Box bounds = box_of(model.points());
+  return fmt::format("model with {} points, {} faces, {} normals\n  box {}  to  {}\n",
+                     model.points().size(), model.faces().n_rows(), model.normals().size(),
+                     text_of(bounds.min), text_of(bounds.max));
+}
+
+std::string picture_report(const std::string& path, int width, int height, bool is_json) {
+  return is_json ? line({{"output", path}, {"width", width}, {"height", height}})
+                 : fmt::format("{}: {} x {} pixels\n", path, width, height);
+}
+
+std::string result_report(const Scene& scene, const std::string& name, const std::string& path,
+                          bool is_json) {
+  if (const auto lattice = scene.lattices.find(name); lattice != scene.lattices.end()) {
+    Json json = lattice_json(*lattice->second);
+    json["output"] = path;
+    return is_json ? line(json)
+                   : fmt::format("{}: {}\n", path, counts_text(*lattice->second->complex));
+  }
+  const Model& model = model_in(scene, name);
+  Json json = model_json(model);
+  json["output"] = path;
+  std::string text =
+      fmt::format("{}: {} points, {} faces\n", path, model.points().size(), model.faces().n_rows());
+  add_counts(scene, json, text);
+  return is_json ? line(json) : text;
+}
+
+std::string binding_report(const Scene& scene, const std::string& path, bool is_json) {
+  Json json = {{"type", "binding"}};
+  std::string text = fmt::format("{}:\n", path);
+  add_counts(scene, json, text);
+  json["output"] = path;
+  return is_json ? line(json) : text;
+}
+
+std::string series_report(const std::vector<std::string>& reports, bool is_json) {
+  std::string text;
+  for (const std::string& report : reports) {
+    text += (is_json && !text.empty() ? "," : "") + report;
+  }
+  return is_json ? "[" + text + "]\n" : text;
+}
+
+}  // namespace espalier::tools

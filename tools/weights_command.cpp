@@ -1,0 +1,81 @@
+/// espalier weights: how a model's points depend on the control points, as a sparse matrix.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "deform/evaluate/weights.h"
+#include "deform/model/model_file.h"
+#include "deform/scene/bind.h"
+#include "lattice/core/file.h"
+#include "lattice/io/lattice_file.h"
+#include "lattice/io/matrix_market.h"
+#include "tools/command.h"
+
+namespace espalier::tools {
+namespace {
+
+constexpr const char* kComment =
+    "W of x' = x + W (P - P_rest): a row a model point, a column a control point, empty rows "
+    "outside";
+
+std::string report(const std::string& path, const StencilTable& weights, const StatusCounts& counts,
+                   bool is_json) {
+  if (!is_json) {
+    return fmt::format(
+        "{}: {} points x {} control points, {} weights\n"
+        "  {} inside, {} on the border, {} outside, {} unconverged\n",
+        path, weights.n_rows(), weights.n_controls(), weights.n_weights(), counts.inside,
+        counts.border, counts.outside, counts.unconverged);
+  }
+  using Json = nlohmann::ordered_json;
+  const Json json = {{"rows", weights.n_rows()},       {"columns", weights.n_controls()},
+                     {"weights", weights.n_weights()}, {"output", path},
+                     {"inside", counts.inside},        {"border", counts.border},
+                     {"outside", counts.outside},      {"unconverged", counts.unconverged}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+ExitStatus run(const Arguments& arguments, const Session& session) {
+  const Model model = read_model(arguments.text("model"));
+  const SubdivisionLattice lattice = read_lattice(arguments.text("lattice"), session.progress);
+  const Volume volume = freeze(lattice, arguments.text("freeze"), session.progress);
+  const Binding binding = embed(volume, model.points(), session.progress);
+  const StencilTable weights = control_weights(volume, binding);
+  const std::string& path = arguments.text("output");
+  write_file(path, matrix_market_text(weights, kComment));
+  if (!session.is_quiet && path != "/dev/stdout") {
+    std::fputs(report(path, weights, binding.counts(), session.is_json).c_str(), stdout);
+  }
+  return ExitStatus::Done;
+}
+
+}  // namespace
+
+Command weights_command() {
+  return {"weights",
+          "Write how a model's points depend on the control points, as a sparse matrix",
+          {{.name = "model",
+            .type = ParameterType::Path,
+            .help = "the model (.obj)",
+            .is_required = true,
+            .is_positional = true},
+           {.name = "lattice",
+            .type = ParameterType::Path,
+            .help = "the lattice at rest (.json, .ovm)",
+            .is_required = true},
+           {.name = "freeze",
+            .type = ParameterType::Text,
+            .help = "adaptive[:TOLERANCE], or uniform:N, the lattice refined N times (default "
+                    "adaptive, 1e-5 of the lattice's diagonal)",
+            .fallback = Value(std::string("adaptive"))},
+           {.name = "output",
+            .type = ParameterType::Path,
+            .help = "the matrix as MatrixMarket (.mtx), rows and columns from 1",
+            .is_required = true}},
+          run};
+}
+
+}  // namespace espalier::tools

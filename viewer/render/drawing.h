@@ -1,0 +1,55 @@
+#pragma once
+
+/// What a picture shows, as plain data in drawing units (drawing_frame.h): float positions near
+/// the origin. Colours are display (sRGB) colours in [0,1]; widths are pixels of the picture.
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace espalier::viewer {
+
+/// Clay: the colour of a model that has none of its own.
+inline constexpr glm::vec3 kClay{0.84F, 0.67F, 0.55F};
+
+/// A shaded surface, lit on both sides.
+struct TriangleMesh {
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;      ///< One a position: unit, or zero for the facet's own.
+  std::vector<std::uint32_t> indices;  ///< Three a triangle.
+  glm::vec3 color = kClay;
+  float opacity = 1;  ///< In [0,1]; below 1 what is behind shines through.
+};
+
+/// Straight lines of one width with round ends.
+struct LineSet {
+  std::vector<glm::vec3> points;  ///< Two a segment.
+  std::vector<glm::vec3> colors;  ///< One a segment.
+  float width = 2.5F;
+  float hidden_opacity = 0.3F;  ///< In [0,1]: what is left of a line behind an opaque mesh.
+};
+
+/// Round dots that face the viewer.
+struct PointSet {
+  std::vector<glm::vec3> points;
+  std::vector<glm::vec3> colors;  ///< One a point.
+  float diameter = 11;
+  float outline = 1.5F;  ///< Width of a dark rim inside the diameter; 0: none.
+  float hidden_opacity = 0.3F;
+};
+
+/// A vertical gradient.
+struct Background {
+  glm::vec3 top{0.97F, 0.975F, 0.98F};
+  glm::vec3 bottom{0.84F, 0.85F, 0.87F};
+};
+
+/// Everything in one picture.
+struct Drawing {
+  std::vector<TriangleMesh> meshes{};
+  std::vector<LineSet> lines{};
+  std::vector<PointSet> points{};
+  Background background{};
+};
+
+}  // namespace espalier::viewer
