@@ -1,6 +1,6 @@
 #pragma once
 
-/// Numbers as the text of a file, at the file's precision.
+/// Numbers as a file writes them, at its precision: as text, or as bytes.
 
 #include <cstddef>
 #include <string_view>
@@ -19,7 +19,18 @@ inline constexpr int kFloatDigits = 9;
 /// Whether a file of this precision would hold the same number for both.
 [[nodiscard]] bool is_same_number(double a, double b, NumberEncoding encoding);
 
-/// The shortest text that reads back as the same number at the given precision.
+/// Bytes that the encoding takes for a number; 0 for text.
+[[nodiscard]] std::size_t encoded_size(NumberEncoding encoding);
+
+/// The encoding of a number of `size` bytes in a file of an encoding: what is no text may hold
+/// floats beside doubles.
+[[nodiscard]] NumberEncoding with_size(NumberEncoding encoding, std::size_t size);
+
+/// The number that a file's bytes stand for. bytes: encoded_size() of them, of no text encoding.
+[[nodiscard]] double decoded(std::string_view bytes, NumberEncoding encoding);
+
+/// What a file writes for a number: the shortest text that reads back as the same number at the
+/// given precision, or its bytes.
 class NumberText {
  public:
   NumberText(double number, NumberEncoding encoding);

@@ -352,6 +352,7 @@ ModelLayout ObjScanner::finish() {
   if (counts_[Normal] > 0 && (has_corner_normals_ || !others_.empty())) {
     find_pairs();
   }
+  layout_.normal_encoding = layout_.encoding;
   layout_.line_end = line_end_of(bytes_);
   return std::move(layout_);
 }
