@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "lattice/core/parallel.h"
+#include "lattice/core/spatial_order.h"
 #include "lattice/volume/bezier_inverse.h"
 
 namespace espalier {
@@ -268,13 +269,14 @@ Location PointLocator::locate(const glm::dvec3& x) const {
 std::vector<Location> PointLocator::locate(std::span<const glm::dvec3> points,
                                            const Progress& progress) const {
   constexpr std::size_t kPointsPerUpdate = 1 << 16;
+  const std::vector<std::uint32_t> order = spatial_order(points);
   std::vector<Location> locations(points.size());
   for (std::size_t first = 0; first < points.size(); first += kPointsPerUpdate) {
     const std::size_t n = std::min(kPointsPerUpdate, points.size() - first);
     parallel_ranges(n, 512, [&](std::size_t begin, std::size_t end) {
       Query query(*this);
-      for (std::size_t i = first + begin; i < first + end; ++i) {
-        locations[i] = query.locate(points[i]);
+      for (std::size_t k = first + begin; k < first + end; ++k) {
+        locations[order[k]] = query.locate(points[order[k]]);
       }
     });
     progress.update("embed", static_cast<double>(first + n) / static_cast<double>(points.size()));

@@ -8,13 +8,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <glm/geometric.hpp>
+#include <random>
 
 #include "lattice/build/primitives.h"
 #include "lattice/subdivision/freeze.h"
 #include "lattice/volume/point_locator.h"
 #include "tests/bench/timing.h"
-#include "tests/support/accuracy.h"
 #include "tests/support/families.h"
+#include "tests/support/places.h"
 #include "tests/support/spline_volume.h"
 
 namespace espalier {

@@ -13,6 +13,7 @@
 #include "tests/bench/timing.h"
 #include "tests/support/accuracy.h"
 #include "tests/support/families.h"
+#include "tests/support/places.h"
 
 namespace espalier {
 namespace {
