@@ -14,7 +14,8 @@ namespace espalier {
 
 /// A Bézier hexahedron whose points stand elsewhere: of degree (p, q, r) per axis, with
 /// (p+1)(q+1)(r+1) points, u fastest (index_order.h). Their values are positions, or displacements.
-/// Degrees (1,1,1), (2,2,2) and (3,3,3) have code of their own; no call allocates up to degree 7.
+/// Degrees (1,1,1), (2,2,2), (3,3,3) and (1,1,3) have code of their own; no call allocates up to
+/// degree 7.
 struct BezierView {
   std::array<int, 3> degree = {1, 1, 1};
   std::span<const glm::dvec3> points;

@@ -34,22 +34,19 @@ void extract(const Extraction& extraction, std::size_t n_before,
   }
 }
 
-/// The unit cube, or for a leaf what it may hold beyond: not across the volume's boundary, nor
-/// beyond an apex.
-std::pair<glm::dvec3, glm::dvec3> reach(const Patch& patch) {
-  glm::dvec3 low(0);
-  glm::dvec3 high(1);
-  for (int axis = 0; axis < 3 && patch.is_leaf; ++axis) {
-    low[axis] -= patch.is_on_boundary(2 * axis) ? 0 : kLeafReach;
-    high[axis] += patch.is_on_boundary(2 * axis + 1) ? 0 : kLeafReach;
-  }
-  if (patch.is_pyramid) {
-    high.z = 1;
-  }
-  return {low, high};
-}
-
 }  // namespace
+
+Box Patch::reach() const {
+  Box box{glm::dvec3(0), glm::dvec3(1)};
+  for (int axis = 0; axis < 3 && is_leaf; ++axis) {
+    box.min[axis] -= is_on_boundary(2 * axis) ? 0 : kLeafReach;
+    box.max[axis] += is_on_boundary(2 * axis + 1) ? 0 : kLeafReach;
+  }
+  if (is_pyramid) {
+    box.max.z = 1;
+  }
+  return box;
+}
 
 Volume::Volume(VolumeTables tables, std::vector<glm::dvec3> rest_controls)
     : tables_(std::move(tables)),
@@ -122,8 +119,8 @@ std::vector<Box> Volume::patch_boxes() const {
       bezier(i, rest_points_, map);
       boxes[i] = map.hull_box();
       if (patch(i).is_leaf) {
-        const auto [low, high] = reach(patch(i));
-        boxes[i].add(map.part(low, high).hull_box());
+        const Box reach = patch(i).reach();
+        boxes[i].add(map.part(reach.min, reach.max).hull_box());
       }
     }
   });

@@ -29,6 +29,9 @@ struct Patch {
   bool is_leaf = false;  ///< meets its neighbours only nearly: holds what is left between them too
 
   [[nodiscard]] bool is_on_boundary(int face) const { return (boundary_faces >> face & 1) != 0; }
+  /// The parameters at which the patch may hold points: the unit cube, or for a leaf kLeafReach
+  /// more, but not across the volume's boundary, nor beyond an apex.
+  [[nodiscard]] Box reach() const;
 };
 
 /// The tables of a volume.

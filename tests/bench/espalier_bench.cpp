@@ -8,8 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <ctime>
 #include <glm/common.hpp>
 #include <numeric>
 #include <random>
@@ -25,46 +23,18 @@
 #include "lattice/subdivision/freeze.h"
 #include "lattice/subdivision/refine.h"
 #include "lattice/topology/cell_complex.h"
+#include "tests/bench/timing.h"
 
 namespace espalier {
 namespace {
 
-/// With one thread the time of the processor, which other programs hardly disturb; with more the
-/// time that passes.
-double now() {
-  timespec time{};
-  ::clock_gettime(thread_count() == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-/// Seconds that `work` takes: the best of `repeats`.
-template <class Work>
-double seconds(const Work& work, int repeats = 3) {
-  double best = 1e300;
-  for (int i = 0; i < repeats; ++i) {
-    const double start = now();
-    work();
-    best = std::min(best, now() - start);
-  }
-  return best;
-}
+using bench::copy_seconds;
+using bench::print;
+using bench::seconds;
 
 std::size_t heap_in_use() {
   const struct mallinfo2 info = ::mallinfo2();
   return info.uordblks + info.hblkhd;
-}
-
-/// Seconds to copy `bytes` once, out of and into memory that is too large for a cache.
-double copy_seconds(std::size_t bytes) {
-  static constexpr std::size_t kBlock = std::size_t{1} << 28;
-  static std::vector<char> from(kBlock, 1);
-  static std::vector<char> to(kBlock, 2);
-  const double a_byte = seconds([] { std::memcpy(to.data(), from.data(), kBlock); }) / kBlock;
-  return a_byte * static_cast<double>(bytes);
-}
-
-void print(const std::string& what, double value, const std::string& unit) {
-  fmt::print("  {:<66} {:>9.3g} {}\n", what, value, unit);
 }
 
 using HexahedronCorners = std::array<std::int32_t, 8>;

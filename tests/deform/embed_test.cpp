@@ -4,7 +4,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <random>
 
 #include "deform/evaluate/displace.h"
 #include "lattice/build/primitives.h"
@@ -12,28 +11,13 @@
 #include "lattice/subdivision/freeze.h"
 #include "lattice/volume/bezier_inverse.h"
 #include "tests/support/families.h"
+#include "tests/support/places.h"
 #include "tests/support/spline_volume.h"
 
 namespace espalier {
 namespace {
 
-/// Points of random patches at random places, some of them on faces, edges and corners.
-std::vector<glm::dvec3> points_inside(const Volume& volume, std::size_t n, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<glm::dvec3> points;
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t patch = random() % volume.n_patches();
-    glm::dvec3 uvw(unit(random), unit(random), unit(random));
-    for (int axis = 0; axis < 3; ++axis) {
-      if (random() % 4 == 0) {
-        uvw[axis] = random() % 2 == 0 ? 0 : 1;
-      }
-    }
-    points.push_back(volume.bezier(patch, volume.rest_points()).value(uvw));
-  }
-  return points;
-}
+using test::points_inside;
 
 glm::dvec3 held_value(const Volume& volume, const Binding& binding, std::size_t i,
                       std::span<const glm::dvec3> values) {
