@@ -64,12 +64,14 @@ class RestPatches {
       n += n_points > 8 ? n_points : 0;
     }
     points_.resize(n);
+    weights_.resize(volume.is_rational() ? n : 0);
     parallel_ranges(first_.size(), 256, [&](std::size_t begin, std::size_t end) {
       BezierPatch patch;
       for (std::size_t i = begin; i < end; ++i) {
         if (n_points(i) > 0) {
           volume.bezier(i, volume.rest_points(), patch);
           std::copy(patch.points.begin(), patch.points.end(), points_.begin() + offset(i));
+          std::copy(patch.weights.begin(), patch.weights.end(), weights_.begin() + offset(i));
         }
       }
     });
@@ -81,7 +83,11 @@ class RestPatches {
       volume_.bezier(i, volume_.rest_points(), scratch);
       return scratch;
     }
-    return {volume_.degree(i), {&points_[first_[i]], n_points(i)}, volume_.patch(i).is_pyramid};
+    const std::span<const double> weights(weights_);
+    return {volume_.degree(i),
+            {&points_[first_[i]], n_points(i)},
+            volume_.patch(i).is_pyramid,
+            weights.empty() ? weights : weights.subspan(first_[i], n_points(i))};
   }
 
  private:
@@ -95,6 +101,7 @@ class RestPatches {
   const Volume& volume_;
   std::vector<std::size_t> first_;
   std::vector<glm::dvec3> points_;
+  std::vector<double> weights_;  // #points_, or empty
 };
 
 /// Memory for one thread's searches.
