@@ -285,6 +285,15 @@ class Search {
   int n_parts_ = 0;
 };
 
+/// A rational patch N / W takes the value x where the polynomial N − x W takes the value 0.
+BezierPatch relative_to(const BezierView& patch, const glm::dvec3& x) {
+  BezierPatch result{patch.degree, {patch.points.begin(), patch.points.end()}};
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    result.points[i] -= patch.weights[i] * x;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::optional<Preimage> invert(const BezierView& patch, const glm::dvec3& x, double margin) {
@@ -293,12 +302,27 @@ std::optional<Preimage> invert(const BezierView& patch, const glm::dvec3& x, dou
 
 std::optional<Preimage> invert_from(const BezierView& patch, const glm::dvec3& x,
                                     const glm::dvec3& start, double margin) {
+  if (patch.is_rational()) {
+    auto found = invert_from(relative_to(patch, x), glm::dvec3(0), start, margin);
+    if (found) {
+      found->residual = glm::distance(patch.value(found->uvw), x);
+    }
+    return found;
+  }
   const Preimage found = newton(patch, x, start, margin);
   return std::isfinite(found.residual) ? std::optional(found) : std::nullopt;
 }
 
 std::optional<Preimage> invert_by_subdivision(const BezierView& patch, const glm::dvec3& x,
                                               double tolerance) {
+  if (patch.is_rational()) {
+    const double least = *std::min_element(patch.weights.begin(), patch.weights.end());
+    auto found = invert_by_subdivision(relative_to(patch, x), glm::dvec3(0), least * tolerance);
+    if (found) {
+      found->residual = glm::distance(patch.value(found->uvw), x);
+    }
+    return found;
+  }
   return Search(patch, x, tolerance).run();
 }
 

@@ -81,6 +81,15 @@ glm::dvec3 least_slopes(const BezierView& patch, const glm::dmat3& inverse) {
   return least;
 }
 
+/// The points of a rational patch where they stand, as those of a polynomial: its hull holds both.
+BezierPatch control_net(const BezierView& patch) {
+  BezierPatch net{patch.degree, {}};
+  for (std::size_t i = 0; i < patch.points.size(); ++i) {
+    net.points.push_back(patch.position(i));
+  }
+  return net;
+}
+
 }  // namespace
 
 AffineMap affine_map(const BezierView& patch) {
@@ -99,8 +108,13 @@ AffineMap affine_map(const BezierView& patch) {
            (high[1] + low[1] - high[0] - low[0]) / 4.0}};
 }
 
-PatchFrame::PatchFrame(const BezierView& patch)
-    : map_(affine_map(patch)), is_pyramid_(patch.is_pyramid) {
+PatchFrame::PatchFrame(const BezierView& patch) : is_pyramid_(patch.is_pyramid) {
+  if (patch.is_rational()) {
+    *this = PatchFrame(control_net(patch));
+    forget_slopes();
+    return;
+  }
+  map_ = affine_map(patch);
   const auto found = inverse(map_.axes);
   if (!found) {
     return;
@@ -116,6 +130,11 @@ PatchFrame::PatchFrame(const BezierView& patch)
 
 PatchFrame::PatchFrame(const BezierPatch& patch, double slack, const Box& reach)
     : PatchFrame(patch) {
+  if (patch.view().is_rational()) {
+    *this = PatchFrame(control_net(patch), slack, reach);
+    forget_slopes();
+    return;
+  }
   if (inverse_ == glm::dmat3(0)) {
     return;
   }

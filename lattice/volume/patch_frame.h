@@ -29,6 +29,7 @@ class PatchFrame {
  public:
   PatchFrame() = default;
   /// Without the test: may_hold() is always true. O(points of the patch), no allocation.
+  /// Of a rational patch the frame is that of its points.
   explicit PatchFrame(const BezierView& patch);
   /// With the test. slack: a length by which values may lie beyond the patch; reach: the parameters
   /// that it may take values at, the unit cube or more.
@@ -55,6 +56,12 @@ class PatchFrame {
   }
 
  private:
+  /// What a rational patch does not share with the polynomial over its points.
+  void forget_slopes() {
+    is_affine_ = false;
+    least_slope_ = glm::dvec3(0);
+  }
+
   AffineMap map_;
   glm::dmat3 inverse_{0};
   Box bounds_{glm::dvec3(-std::numeric_limits<double>::infinity()),

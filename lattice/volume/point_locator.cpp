@@ -78,6 +78,7 @@ RestPatches::RestPatches(const Volume& volume, double slack)
     }
   }
   points_.resize(n_points);
+  weights_.resize(volume.is_rational() ? n_points : 0);
   frames_.resize(first_.size());
   parallel_ranges(kept_.size(), 256, [&](std::size_t begin, std::size_t end) {
     BezierPatch patch;
@@ -87,6 +88,8 @@ RestPatches::RestPatches(const Volume& volume, double slack)
         volume.bezier(i, volume.rest_points(), patch);
         std::copy(patch.points.begin(), patch.points.end(),
                   points_.begin() + static_cast<std::ptrdiff_t>(first_[k]));
+        std::copy(patch.weights.begin(), patch.weights.end(),
+                  weights_.begin() + static_cast<std::ptrdiff_t>(first_[k]));
         frames_[k] = PatchFrame(patch, slack, volume.patch(i).reach());
       }
     }
@@ -98,9 +101,13 @@ BezierView RestPatches::view(std::size_t i, BezierPatch& scratch) const {
     volume_->bezier(i, volume_->rest_points(), scratch);
     return scratch;
   }
+  const std::size_t first = first_[static_cast<std::size_t>(kept_[i])];
+  const std::size_t n = n_bezier_points(*volume_, i);
+  const std::span<const double> weights(weights_);
   return {volume_->degree(i),
-          {&points_[first_[static_cast<std::size_t>(kept_[i])]], n_bezier_points(*volume_, i)},
-          volume_->patch(i).is_pyramid};
+          {&points_[first], n},
+          volume_->patch(i).is_pyramid,
+          weights.empty() ? weights : weights.subspan(first, n)};
 }
 
 /// The search for one point. Its memory is kept from point to point.

@@ -55,6 +55,7 @@ class RestPatches {
   std::vector<std::size_t> first_;  // of those kept, in points_
   std::vector<PatchFrame> frames_;
   std::vector<glm::dvec3> points_;
+  std::vector<double> weights_;  // #points_, or empty
 };
 
 /// Finds points' places in one volume at rest, which must outlive it. Points that several patches

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -130,6 +131,26 @@ TEST(InvertBySubdivision, is_certain_of_points_outside) {
       EXPECT_TRUE(found->is_converged) << distance;
     }
   }
+}
+
+TEST(BezierInverse, finds_the_place_in_a_rational_patch) {
+  BezierPatch patch = test::warped_cube({3, 2, 3}, 0.05, 21);
+  for (std::size_t i = 0; i < patch.points.size(); ++i) {
+    patch.weights.push_back(1 + 0.5 * std::sin(static_cast<double>(i)));
+    patch.points[i] = patch.weights[i] * (patch.points[i] + glm::dvec3(5, -3, 2));
+  }
+  for (const glm::dvec3& uvw :
+       {glm::dvec3(0.3, 0.6, 0.2), glm::dvec3(0, 1, 0.5), glm::dvec3(0.9, 0.1, 0.95)}) {
+    const glm::dvec3 x = patch.value(uvw);
+    const auto by_newton = invert(patch, x);
+    ASSERT_TRUE(by_newton);
+    EXPECT_LT(glm::distance(by_newton->uvw, uvw), 1e-12);
+    EXPECT_LT(by_newton->residual, 1e-14);
+    const auto by_subdivision = invert_by_subdivision(patch, x, 1e-13);
+    ASSERT_TRUE(by_subdivision);
+    EXPECT_LT(glm::distance(patch.value(by_subdivision->uvw), x), 1e-13);
+  }
+  EXPECT_FALSE(invert_by_subdivision(patch, {9, 9, 9}, 1e-12));
 }
 
 }  // namespace
