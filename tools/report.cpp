@@ -142,11 +142,17 @@ std::string lattice_text(const SubdivisionLattice& lattice) {
       tag["semi_sharp_vertices"].dump(), text_of(bounds.min), text_of(bounds.max));
 }
 
+/// "1 face", "2 faces".
+std::string counted(std::size_t n, std::string_view one, std::string_view more) {
+  return fmt::format("{} {}", n, n == 1 ? one : more);
+}
+
 std::string defective_text(const LatticeReport& report) {
-  std::string text = fmt::format(
-      "subdivision lattice with {} vertices, {} faces, {} cells\n  not valid, {} defects\n",
-      report.raw.polyhedra.n_vertices, report.raw.polyhedra.faces.n_rows(),
-      report.raw.polyhedra.cells.n_rows(), report.defects.size());
+  std::string text =
+      fmt::format("subdivision lattice with {} vertices, {} faces, {}\n  not valid, {}\n",
+                  report.raw.polyhedra.n_vertices, report.raw.polyhedra.faces.n_rows(),
+                  counted(report.raw.polyhedra.cells.n_rows(), "cell", "cells"),
+                  counted(report.defects.size(), "defect", "defects"));
   for (std::size_t i = 0; i < std::min(report.defects.size(), kDefectsShown); ++i) {
     text += fmt::format("  {}: {}\n", name_of(report.defects[i].kind), report.defects[i].message);
   }
@@ -176,11 +182,6 @@ Json counts_json(const StatusCounts& counts) {
 /// Names of files may be no UTF-8, which JSON is.
 std::string line(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-/// "1 face", "2 faces".
-std::string counted(std::size_t n, std::string_view one, std::string_view more) {
-  return fmt::format("{} {}", n, n == 1 ? one : more);
 }
 
 Json lock_json(const Lock& lock) {

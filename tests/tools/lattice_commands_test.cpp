@@ -218,6 +218,14 @@ TEST_F(LatticeCommands, refine_refuses_levels_out_of_range_and_a_scheme_for_mode
   EXPECT_EQ(files(), (std::vector<std::string>{"box.json", "cube.obj"}));
 }
 
+TEST_F(LatticeCommands, convert_says_that_a_closed_mesh_cannot_be_extruded) {
+  write_file("cube.obj", cube_obj());
+  EXPECT_EQ(refusal({"convert", "cube.obj", "--extrude", "0", "0", "1", "-o", "c.json"}, 2),
+            "extrude: the mesh is closed, only an open surface can be extruded: draw the section "
+            "of the lattice, or cut the mesh open");
+  EXPECT_EQ(files(), std::vector<std::string>{"cube.obj"});
+}
+
 TEST_F(LatticeCommands, a_lattice_that_would_not_be_valid_is_named_by_its_file) {
   EXPECT_EQ(refusal({"new", "box", "--max", "1e-200", "1", "1", "-o", "flat.json"}, 1),
             "flat.json: invalid lattice: edge 0-1: its ends coincide (and 25 more defects)");
