@@ -154,6 +154,24 @@ TEST(Embed, gives_what_is_left_between_leaves_to_the_nearest_by_extrapolation) {
   }
 }
 
+TEST(Embed, prefers_the_leaf_that_is_nearer_in_space_to_the_one_nearer_in_parameters) {
+  // Two leaves end to end, 100 long and 1 wide, and a point beside the second.
+  std::vector<glm::dvec3> corners = test::grid_points({2, 1, 1});
+  for (glm::dvec3& point : corners) {
+    point.x *= 100;
+  }
+  VolumeTables tables;
+  tables.stencils = StencilTable::build(
+      12, 12, [](std::size_t i, StencilRow& row) { row.add(static_cast<std::int32_t>(i), 1.0); });
+  tables.extractions = {bezier_extraction(1)};
+  tables.patches = {Patch{{0, 0, 0}, 0, false, true}, Patch{{0, 0, 0}, 0, false, true}};
+  tables.blocks = {{0, 1, 3, 4, 6, 7, 9, 10}, {1, 2, 4, 5, 7, 8, 10, 11}};
+  const Volume volume(std::move(tables), std::move(corners));
+  const Binding binding = embed(volume, std::vector<glm::dvec3>{{101, 1.04, 0.5}, {99, 1.04, 0.5}});
+  EXPECT_EQ(binding.points, (std::vector<std::int32_t>{1, 0}));
+  EXPECT_EQ(binding.patches, (std::vector<std::int32_t>{0, 1}));
+}
+
 TEST(Embed, leaves_points_beyond_a_leafs_reach_outside) {
   const Volume volume = leaves_with_gap(0.25);
   const Binding binding = embed(volume, std::vector<glm::dvec3>{{1.125, 0.5, 0.5}});

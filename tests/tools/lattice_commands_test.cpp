@@ -88,15 +88,13 @@ std::size_t count_status(const std::string& csv, const std::string& status) {
 TEST_F(LatticeCommands, a_new_cylinder_holds_every_point_within_its_radius) {
   write_file("within.csv", points_round(Bar(), 1 - 4e-6));  // the CSV has six digits
   write_file("beyond.csv", points_round(Bar(), 1.5));
-  for (const char* sectors : {"3", "8"}) {
-    for (const char* layers : {"1", "4"}) {
-      done({"new",          "cylinder", "--from",    "1",     "2",        "3",
-            "--to",         "3",        "5",         "9",     "--radius", "0.7",
-            "--end-radius", "0.4",      "--sectors", sectors, "--layers", layers,
-            "-o",           "bar.json"});
-      EXPECT_EQ(count_status(done({"eval", "bar.json", "--at", "within.csv"}), "inside"), 1368u)
-          << sectors << " sectors, " << layers << " layers";
-    }
+  for (const auto& [sectors, layers] : {std::pair("3", "4"), std::pair("8", "1")}) {
+    done({"new",          "cylinder", "--from",    "1",     "2",        "3",
+          "--to",         "3",        "5",         "9",     "--radius", "0.7",
+          "--end-radius", "0.4",      "--sectors", sectors, "--layers", layers,
+          "-o",           "bar.json"});
+    EXPECT_EQ(count_status(done({"eval", "bar.json", "--at", "within.csv"}), "inside"), 1368u)
+        << sectors << " sectors, " << layers << " layers";
   }
   EXPECT_EQ(count_status(done({"eval", "bar.json", "--at", "beyond.csv"}), "outside"), 1368u);
 }
