@@ -2,6 +2,7 @@
 /// memory, to evaluating. Each time is the best of a few repeats.
 ///
 /// usage: espalier_bench [cells along an axis of the large grid, 100]
+///        espalier_bench evaluation          only the table of evaluation and its marks
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -23,6 +24,7 @@
 #include "lattice/subdivision/freeze.h"
 #include "lattice/subdivision/refine.h"
 #include "lattice/topology/cell_complex.h"
+#include "tests/bench/evaluation_bench.h"
 #include "tests/bench/timing.h"
 
 namespace espalier {
@@ -179,6 +181,11 @@ void bench_deform() {
 }
 
 int run(int argc, char** argv) {
+  constexpr std::size_t kMostPoints = 10000000;
+  if (argc > 1 && std::string(argv[1]) == "evaluation") {
+    bench_evaluation(kMostPoints);
+    return 0;
+  }
   const int n = argc > 1 ? std::atoi(argv[1]) : 100;
   if (n < 1 || n > 400) {
     fmt::print(stderr, "espalier_bench: the grid has {} cells along an axis, must be 1 to 400\n",
@@ -192,6 +199,7 @@ int run(int argc, char** argv) {
   bench_refine("a cylinder of 15 wedges", lattice_from(make_cylinder(cylinder)), 5);
   bench_refine("a grid of 216 cubes", lattice_from(make_box({6, 6, 6}, {0, 0, 0}, {1, 1, 1})), 3);
   bench_deform();
+  bench_evaluation(kMostPoints);
   return 0;
 }
 
