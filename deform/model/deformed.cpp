@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "deform/model/encoded_number.h"
 #include "deform/model/model_file.h"
 #include "deform/model/normals.h"
-#include "deform/model/number_text.h"
 #include "deform/model/splices.h"
 #include "lattice/core/error.h"
 #include "lattice/core/text_scanner.h"
@@ -59,7 +59,7 @@ void replace_coordinates(const CoordinatePlaces& places, const glm::dvec3& old_n
   for (int axis = 0; axis < 3; ++axis) {
     const NumberEncoding encoding = with_size(of_file, places.axis[axis].length());
     if (!is_same_number(old_numbers[axis], new_numbers[axis], encoding)) {
-      splices.replace(places.axis[axis], NumberText(new_numbers[axis], encoding).view());
+      splices.replace(places.axis[axis], EncodedNumber(new_numbers[axis], encoding).view());
     }
   }
 }
@@ -143,7 +143,7 @@ std::string normal_line(const glm::dvec3& normal, NumberEncoding encoding) {
   std::string line = "vn";
   for (int axis = 0; axis < 3; ++axis) {
     line += ' ';
-    line += NumberText(normal[axis], encoding).view();
+    line += EncodedNumber(normal[axis], encoding).view();
   }
   return line;
 }

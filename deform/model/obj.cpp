@@ -12,7 +12,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "deform/model/number_text.h"
+#include "deform/model/encoded_number.h"
 #include "deform/model/pairs.h"
 #include "lattice/core/text_scanner.h"
 

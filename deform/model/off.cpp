@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "deform/model/number_text.h"
+#include "deform/model/encoded_number.h"
 #include "deform/model/pairs.h"
 #include "lattice/core/text_scanner.h"
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "deform/model/number_text.h"
+#include "deform/model/encoded_number.h"
 #include "deform/model/pairs.h"
 #include "deform/model/ply_header.h"
 

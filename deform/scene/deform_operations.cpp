@@ -196,7 +196,7 @@ Scene deform(const Scene& scene, const Arguments& arguments, const Progress& pro
 Parameter model_parameter() {
   return {.name = "model",
           .type = Type::Model,
-          .help = "the model (.obj)",
+          .help = "the model (.obj, .off, .ply, .stl)",
           .is_required = true,
           .is_positional = true};
 }

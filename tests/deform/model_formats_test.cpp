@@ -6,8 +6,8 @@
 #include <random>
 
 #include "deform/model/deformed.h"
+#include "deform/model/encoded_number.h"
 #include "deform/model/model_file.h"
-#include "deform/model/number_text.h"
 #include "lattice/core/error.h"
 
 namespace espalier {
@@ -22,7 +22,7 @@ struct Sample {
 };
 
 std::string number(double value, NumberEncoding encoding) {
-  return std::string(NumberText(value, encoding).view());
+  return std::string(EncodedNumber(value, encoding).view());
 }
 
 const std::string kOff =

@@ -1,4 +1,4 @@
-#include "deform/model/number_text.h"
+#include "deform/model/encoded_number.h"
 
 #include <algorithm>
 #include <bit>
@@ -80,21 +80,21 @@ bool is_same_number(double a, double b, NumberEncoding encoding) {
   return is_float(encoding) ? static_cast<float>(a) == static_cast<float>(b) : a == b;
 }
 
-NumberText::NumberText(double number, NumberEncoding encoding) {
+EncodedNumber::EncodedNumber(double number, NumberEncoding encoding) {
   const auto narrow = static_cast<float>(number);
   length_ = encoded_size(encoding);
   if (length_ > 0) {
-    std::memcpy(text_, is_float(encoding) ? static_cast<const void*>(&narrow) : &number, length_);
+    std::memcpy(bytes_, is_float(encoding) ? static_cast<const void*>(&narrow) : &number, length_);
     if (is_reversed(encoding)) {
-      std::reverse(text_, text_ + length_);
+      std::reverse(bytes_, bytes_ + length_);
     }
     return;
   }
-  char* const end = text_ + sizeof text_;
+  char* const end = bytes_ + sizeof bytes_;
   const std::to_chars_result result = encoding == NumberEncoding::FloatText
-                                          ? std::to_chars(text_, end, narrow)
-                                          : std::to_chars(text_, end, number);
-  length_ = static_cast<std::size_t>(result.ptr - text_);
+                                          ? std::to_chars(bytes_, end, narrow)
+                                          : std::to_chars(bytes_, end, number);
+  length_ = static_cast<std::size_t>(result.ptr - bytes_);
 }
 
 }  // namespace espalier

@@ -31,13 +31,13 @@ inline constexpr int kFloatDigits = 9;
 
 /// What a file writes for a number: the shortest text that reads back as the same number at the
 /// given precision, or its bytes.
-class NumberText {
+class EncodedNumber {
  public:
-  NumberText(double number, NumberEncoding encoding);
-  [[nodiscard]] std::string_view view() const { return {text_, length_}; }
+  EncodedNumber(double number, NumberEncoding encoding);
+  [[nodiscard]] std::string_view view() const { return {bytes_, length_}; }
 
  private:
-  char text_[32];
+  char bytes_[32];
   std::size_t length_;
 };
 
