@@ -273,22 +273,19 @@ std::vector<ThbCell> ThbHierarchy::leaves() const {
   return result;
 }
 
-std::vector<GridIndex> cells_of_box(const ThbHierarchy& hierarchy, int level, const glm::dvec3& low,
+std::vector<GridIndex> cells_of_box(const std::array<int, 3>& n_cells, const glm::dvec3& low,
                                     const glm::dvec3& high) {
   constexpr double kSnap = 1e-9;
-  require_next_level(hierarchy, level);
-  const std::array<int, 3> n = hierarchy.n_cells(level - 1);
   std::array<std::array<std::int32_t, 2>, 3> lines{};
   for (int axis = 0; axis < 3; ++axis) {
-    const int n_along = n[as_size(axis)];
+    const int n_along = n_cells[as_size(axis)];
     for (const bool is_high : {false, true}) {
       const double at = is_high ? high[axis] : low[axis];
       const double line = std::round(at * n_along);
       if (!(line >= 0 && line <= n_along && std::abs(at - line / n_along) <= kSnap)) {
-        throw ParameterError(
-            fmt::format("the box's side at {} = {} is no line of level {}: a "
-                        "multiple of 1/{} from 0 to 1",
-                        "uvw"[axis], at, level - 1, n_along));
+        throw ParameterError(fmt::format(
+            "the box's side at {} = {} is no line between cells: a multiple of 1/{} from 0 to 1",
+            "uvw"[axis], at, n_along));
       }
       lines[as_size(axis)][is_high ? 1 : 0] = static_cast<std::int32_t>(line);
     }
@@ -302,6 +299,12 @@ std::vector<GridIndex> cells_of_box(const ThbHierarchy& hierarchy, int level, co
                  {lines[0][1] - 1, lines[1][1] - 1, lines[2][1] - 1},
                  [&](const GridIndex& cell) { cells.push_back(cell); });
   return cells;
+}
+
+std::vector<GridIndex> cells_of_box(const ThbHierarchy& hierarchy, int level, const glm::dvec3& low,
+                                    const glm::dvec3& high) {
+  require_next_level(hierarchy, level);
+  return cells_of_box(hierarchy.n_cells(level - 1), low, high);
 }
 
 std::vector<GridIndex> cells_holding(const ThbHierarchy& hierarchy, int level,

@@ -139,9 +139,13 @@ void for_each_parent(const ThbHierarchy& hierarchy, int level, const GridIndex& 
   }
 }
 
+/// The cells of a grid of n_cells that a box of [0,1]³ consists of. Throws ParameterError for a box
+/// that is empty, leaves [0,1]³, or whose sides are not lines of the grid within 1e-9.
+[[nodiscard]] std::vector<GridIndex> cells_of_box(const std::array<int, 3>& n_cells,
+                                                  const glm::dvec3& low, const glm::dvec3& high);
+
 /// The cells of level − 1 that a box of [0,1]³ consists of, to add to the domain of `level`. Throws
-/// ParameterError for a level that is none or more than one too high, and for a box that is empty,
-/// leaves [0,1]³, or whose sides are not lines of level − 1 within 1e-9.
+/// ParameterError for a level that is none or more than one too high, and for a box as above.
 [[nodiscard]] std::vector<GridIndex> cells_of_box(const ThbHierarchy& hierarchy, int level,
                                                   const glm::dvec3& low, const glm::dvec3& high);
 
