@@ -428,6 +428,13 @@ void append_levels(std::string& text, const ThbHierarchy& hierarchy) {
 
 }  // namespace
 
+bool is_tensor_json(const std::string& path, std::string_view text) {
+  const Json root = parse_json_object(path, text);
+  const auto type = root.find("type");
+  return type != root.end() && type->is_string() &&
+         (*type == kThbType || tensor_kind_named(type->get_ref<const std::string&>()));
+}
+
 std::variant<TensorLattice, ThbLattice> parse_json_tensor(const std::string& path,
                                                           std::string_view text) {
   const Json root = parse_json_object(path, text);

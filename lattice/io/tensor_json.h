@@ -28,6 +28,9 @@
 
 namespace espalier {
 
+/// Whether a file says that it is of one of these types. Throws FileError if it is no JSON object.
+[[nodiscard]] bool is_tensor_json(const std::string& path, std::string_view text);
+
 /// Throws FileError naming the line of a syntax error, or the element by its JSON path. Memory is
 /// asked for in proportion to the file. O(n).
 [[nodiscard]] std::variant<TensorLattice, ThbLattice> parse_json_tensor(const std::string& path,
