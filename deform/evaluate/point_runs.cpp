@@ -88,6 +88,7 @@ class RunMaker {
     run.patch = points_.patches[begin];
     const Patch& patch = volume_.patch(static_cast<std::size_t>(run.patch));
     run.is_pyramid = patch.is_pyramid;
+    run.is_general = volume_.is_rational();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       run.axes[axis] = static_cast<std::uint16_t>(2 * patch.extractions[axis]);
       run.is_general |= !is_kernel_axis(volume_.extractions()[patch.extractions[axis]]);

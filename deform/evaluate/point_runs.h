@@ -37,7 +37,7 @@ struct PointRun {
   std::uint32_t first_exact = 0;        ///< of exact_uvw, if it has any there
   std::array<std::uint16_t, 3> axes{};  ///< of `polynomials`
   bool is_scattered = false;
-  bool is_general = false;  ///< of a degree that no kernel knows
+  bool is_general = false;  ///< rational, or of a degree that no kernel knows
   bool is_pyramid = false;  ///< whose derivatives no kernel knows
 };
 

@@ -19,6 +19,9 @@ namespace {
 constexpr std::array<std::string_view, 6> kNames = {"open",    "uniform",  "natural",
                                                     "tripled", "periodic", "explicit"};
 
+/// Numbers that the extractions of an axis may have.
+constexpr double kMostExtractionWeights = 1 << 25;
+
 std::size_t as_size(int i) {
   return static_cast<std::size_t>(i);
 }
@@ -99,6 +102,9 @@ void require_counts(int n_controls, int degree, Ends ends) {
   }
   if (ends == Ends::Natural && degree != 0 && degree != 1 && degree != 3) {
     fail(fmt::format("natural ends have degree 3, or 1, not {}", degree));
+  }
+  if (static_cast<double>(n_controls) * (degree + 1) * (degree + 1) > kMostExtractionWeights) {
+    fail(fmt::format("too many for degree {}", degree));
   }
   const bool is_folded = ends == Ends::Natural || ends == Ends::Tripled;
   const int least =
@@ -215,10 +221,8 @@ TensorAxis TensorAxis::make(int n_controls, int degree, Ends ends) {
 TensorAxis TensorAxis::from_knots(int degree, std::vector<double> knots) {
   require_knots(degree, knots);
   const std::size_t n = knots.size() - as_size(degree) - 1;
-  if (n > as_size(kMostControlsOnAxis)) {
-    throw ParameterError(
-        fmt::format("{} control points on an axis, at most {}", n, kMostControlsOnAxis));
-  }
+  require_counts(static_cast<int>(std::min(n, as_size(kMostControlsOnAxis) + 1)), degree,
+                 Ends::Explicit);
   TensorAxis axis;
   axis.degree_ = degree;
   axis.n_controls_ = static_cast<int>(n);

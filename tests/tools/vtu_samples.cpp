@@ -13,6 +13,7 @@
 #include "lattice/core/file.h"
 #include "lattice/io/vtu_writer.h"
 #include "lattice/subdivision/freeze.h"
+#include "lattice/tensor/thb_lattice.h"
 #include "tests/support/families.h"
 
 namespace espalier::test {
@@ -33,7 +34,7 @@ std::vector<glm::dvec3> places() {
   return result;
 }
 
-/// Up to 200 cells spread over the volume; weights may be empty.
+/// Up to 200 cells spread over the volume; weights: empty for the volume's own.
 void write_samples(const std::string& stem, const Volume& volume,
                    std::span<const glm::dvec3> points, std::span<const double> weights = {}) {
   write_file(stem + ".vtu", vtu_text(volume, points, weights));
@@ -86,7 +87,31 @@ Volume single_patch(const std::array<int, 3>& degree) {
   return {std::move(tables), std::move(points)};
 }
 
+/// Lattices on grids of knots: with weights, round a ring, in a plane, and of several levels.
+void write_tensor_lattices(const std::string& folder) {
+  const TensorAxis open = TensorAxis::make(5, 3, Ends::Open);
+  const TensorAxis ring = TensorAxis::make(6, 3, Ends::Periodic);
+  const TensorAxis natural = TensorAxis::make(4, 3, Ends::Natural);
+  const auto write = [&](const std::string& name, TensorLattice lattice) {
+    for (std::size_t i = 0; i < lattice.weights.size(); ++i) {
+      lattice.weights[i] = 1 + 0.5 * std::sin(static_cast<double>(i));
+    }
+    const Volume volume = freeze(lattice);
+    write_samples(fmt::format("{}/{}", folder, name), volume,
+                  volume.points(jittered(lattice.rest, 0.05, 11)));
+  };
+  write("bspline_ring", make_tensor_lattice(TensorKind::BSpline, {ring, open, natural}, {}));
+  write("bspline_plane", make_tensor_lattice(TensorKind::BSpline, {open, open, TensorAxis()}, {}));
+  write("nurbs_rational", make_tensor_lattice(TensorKind::Nurbs, {open, natural, open}, {}));
+  ThbLattice thb = make_thb_lattice({5, 5, 5}, {3, 2, 1}, {});
+  thb = with_cells(thb, 1, cells_of_box(*thb.hierarchy, 1, glm::dvec3(0), {1, 1, 0.5}));
+  thb = with_cells(thb, 2, cells_of_box(*thb.hierarchy, 2, glm::dvec3(0), {0.5, 0.5, 0.5}));
+  const Volume volume = freeze(thb);
+  write_samples(folder + "/thb", volume, volume.points(jittered(thb.rest, 0.03, 12)));
+}
+
 void write_all(const std::string& folder) {
+  write_tensor_lattices(folder);
   for (const int valence : {3, 5}) {
     const SubdivisionLattice lattice = prism(flower_section(valence), 3);
     const std::vector<glm::dvec3> pose = jittered(lattice.rest, 0.2, 7);

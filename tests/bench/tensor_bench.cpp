@@ -1,0 +1,153 @@
+/// How fast hierarchies of B-splines are built, frozen, refined and evaluated; evaluation also as a
+/// ratio to asking every function of the hierarchy. Each time is the best of a few repeats.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "lattice/core/parallel.h"
+#include "lattice/tensor/thb_lattice.h"
+
+namespace espalier {
+namespace {
+
+/// Seconds of the processor that `work` takes: the best of `repeats`.
+template <class Work>
+double time_of(int repeats, const Work& work) {
+  const auto now = [] {
+    timespec time{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  };
+  double best = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < repeats; ++i) {
+    const double begin = now();
+    work();
+    best = std::min(best, now() - begin);
+  }
+  return best;
+}
+
+/// 20 × 20 × 20 cubic control points, and in each of three levels a box of 10 × 10 × 10 cells.
+ThbLattice three_local_levels() {
+  ThbLattice lattice = make_thb_lattice({20, 20, 20}, {3, 3, 3}, {});
+  std::vector<std::vector<GridIndex>> domains(3);
+  for (std::size_t level = 0; level < 3; ++level) {
+    const int first = level == 0 ? 3 : 2 * domains[level - 1].front().i + 5;
+    for (int k = first; k < first + 10; ++k) {
+      for (int j = first; j < first + 10; ++j) {
+        for (int i = first; i < first + 10; ++i) {
+          domains[level].push_back({i, j, k});
+        }
+      }
+    }
+  }
+  const ThbHierarchy& root = *lattice.hierarchy;
+  return refined_to(lattice, std::make_shared<const ThbHierarchy>(root.counts(), root.degree(),
+                                                                  std::move(domains)));
+}
+
+/// 4 × 4 × 4 cells in the middle of the finest level.
+std::vector<GridIndex> region_to_refine(const ThbHierarchy& hierarchy) {
+  const GridIndex corner = hierarchy.domain(3).front();
+  std::vector<GridIndex> cells;
+  for (int i = 0; i < 64; ++i) {
+    cells.push_back(
+        {2 * corner.i + 8 + i % 4, 2 * corner.j + 8 + i / 4 % 4, 2 * corner.k + 8 + i / 16});
+  }
+  return cells;
+}
+
+std::vector<glm::dvec3> random_places(std::size_t n) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<glm::dvec3> places;
+  for (std::size_t i = 0; i < n; ++i) {
+    places.emplace_back(unit(random), unit(random), unit(random));
+  }
+  return places;
+}
+
+/// The sum over all functions that are control points, not even truncated: what one pays without
+/// patches. At least the axes are evaluated once.
+glm::dvec3 sum_of_all(const ThbLattice& lattice, const std::vector<std::array<TensorAxis, 3>>& axes,
+                      const glm::dvec3& uvw) {
+  std::vector<std::array<std::vector<double>, 3>> values(axes.size());
+  for (std::size_t level = 0; level < axes.size(); ++level) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      const TensorAxis& axis = axes[level][a];
+      values[level][a].assign(static_cast<std::size_t>(axis.n_controls()), 0.0);
+      for (const auto& [i, weight] : axis.values(uvw[static_cast<int>(a)] * axis.end())) {
+        values[level][a][static_cast<std::size_t>(i)] = weight;
+      }
+    }
+  }
+  glm::dvec3 sum(0);
+  for (std::size_t i = 0; i < lattice.rest.size(); ++i) {
+    const ThbFunction& f = lattice.hierarchy->controls()[i];
+    const auto& of_level = values[static_cast<std::size_t>(f.level)];
+    const double weight = of_level[0][static_cast<std::size_t>(f.index.i)] *
+                          of_level[1][static_cast<std::size_t>(f.index.j)] *
+                          of_level[2][static_cast<std::size_t>(f.index.k)];
+    sum += weight * lattice.rest[i];
+  }
+  return sum;
+}
+
+void report_building(const ThbLattice& lattice) {
+  fmt::print("{} control points, {} leaves\n", lattice.rest.size(),
+             lattice.hierarchy->leaves().size());
+  fmt::print("build the hierarchy       {:8.2f} ms\n",
+             1e3 * time_of(7, [] { static_cast<void>(three_local_levels()); }));
+  fmt::print("freeze it                 {:8.2f} ms\n",
+             1e3 * time_of(7, [&] { static_cast<void>(freeze(lattice)); }));
+  const std::vector<GridIndex> cells = region_to_refine(*lattice.hierarchy);
+  fmt::print("refine 64 cells on top    {:8.2f} ms\n",
+             1e3 * time_of(7, [&] { static_cast<void>(with_cells(lattice, 4, cells)); }));
+}
+
+void report_evaluation(const ThbLattice& lattice) {
+  const std::vector<glm::dvec3> places = random_places(2000);
+  const Volume volume = freeze(lattice);
+  const std::vector<ThbCell> leaves = lattice.hierarchy->leaves();
+  std::vector<std::array<TensorAxis, 3>> axes;
+  for (int level = 0; level < lattice.hierarchy->n_levels(); ++level) {
+    const auto along = [&](std::size_t a) {
+      return TensorAxis::make(lattice.hierarchy->axes(level)[a].n_functions(), 3, Ends::Open);
+    };
+    axes.push_back({along(0), along(1), along(2)});
+  }
+  glm::dvec3 sum(0);
+  const double by_patches = time_of(5, [&] {
+    BezierPatch patch;
+    for (const glm::dvec3& uvw : places) {
+      const PatchPlace place = place_of(*lattice.hierarchy, leaves, uvw);
+      volume.bezier(place.patch, volume.rest_points(), patch);
+      sum += patch.value(place.uvw);
+    }
+  });
+  const double by_all = time_of(1, [&] {
+    for (const glm::dvec3& uvw : places) {
+      sum += sum_of_all(lattice, axes, uvw);
+    }
+  });
+  const auto n = static_cast<double>(places.size());
+  fmt::print("evaluate, a patch a point {:8.0f} ns\n", 1e9 * by_patches / n);
+  fmt::print("evaluate, all functions   {:8.0f} ns, {:.0f} times as long{}\n", 1e9 * by_all / n,
+             by_all / by_patches, std::isfinite(sum.x) ? "" : " (not finite)");
+}
+
+}  // namespace
+}  // namespace espalier
+
+int main() {
+  espalier::set_thread_count(1);
+  const espalier::ThbLattice lattice = espalier::three_local_levels();
+  espalier::report_building(lattice);
+  espalier::report_evaluation(lattice);
+}
