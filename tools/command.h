@@ -39,6 +39,7 @@ struct Command {
 [[nodiscard]] Command check_command();
 [[nodiscard]] Command eval_command();
 [[nodiscard]] Command weights_command();
+[[nodiscard]] Command pull_command();
 [[nodiscard]] Command render_command();
 
 }  // namespace espalier::tools
