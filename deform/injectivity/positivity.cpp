@@ -27,6 +27,10 @@ void halve_lines(const NetShape& shape, int axis, std::vector<double>& values,
     for (std::size_t left = n; left > 0; --left) {  // the last of each round is final
       std::copy_n(line + (n - 1) * stride, stride, high + (left - 1) * stride);
       for (std::size_t i = n - 1; i > n - left; --i) {
+        if (stride == 1) {  // a loop over one number costs more than the number
+          line[i] = 0.5 * (line[i] + line[i - 1]);
+          continue;
+        }
         double* at = line + i * stride;
         const double* before = at - stride;
         for (std::size_t s = 0; s < stride; ++s) {
@@ -213,7 +217,16 @@ PositiveRange range_of(const MovingBox& box, int& axis) {
     }
     return c;
   };
+  const double* start = box.coefficients[0].data();
+  const double* slope = box.coefficients[1].data();
+  const double slack = box.errors[0] * (1 + 8 * kUnit);
   for (std::size_t i = 0; i < n; ++i) {
+    // Most coefficients of a linear range are told from the tightest so far at once.
+    if (box.n_powers == 2 &&
+        (start[i] - slack) * (1 - 8 * kUnit) + range.lower * (slope[i] - box.errors[1]) >
+            8 * kUnit * std::abs(slope[i]) * range.lower) {
+      continue;
+    }
     const std::array<double, 4> c = at(i, -1);
     // Cheaper than the zero itself, and mostly enough: nothing before the least so far.
     const double t = range.lower;
