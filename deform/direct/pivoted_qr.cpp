@@ -39,6 +39,7 @@ PivotedQr pivoted_qr(std::vector<double> columns, std::size_t n_rows, std::size_
   for (std::size_t i = 0; i < n_columns; ++i) {
     squares[i] = dot(column(i), column(i), n_rows);
   }
+  std::vector<double> known = squares;  // as they were when they were last summed up
   double first = 0;
   std::vector<double> reflector(n_rows);
   for (std::size_t k = 0; k < std::min(n_rows, n_columns); ++k) {
@@ -47,6 +48,7 @@ PivotedQr pivoted_qr(std::vector<double> columns, std::size_t n_rows, std::size_
     const auto pivot = static_cast<std::size_t>(longest - squares.begin());
     std::swap(result.order[k], result.order[pivot]);
     std::swap(squares[k], squares[pivot]);
+    std::swap(known[k], known[pivot]);
     double* a = column(k);
     const std::size_t n = n_rows - k;
     const double length = std::sqrt(dot(a + k, a + k, n));
@@ -68,7 +70,12 @@ PivotedQr pivoted_qr(std::vector<double> columns, std::size_t n_rows, std::size_
           for (std::size_t row = 0; row < n; ++row) {
             b[row] -= by * reflector[row];
           }
-          squares[k + 1 + i] = n > 1 ? dot(b + 1, b + 1, n - 1) : 0;
+          // Taking away what went into R saves a pass, until too few digits are left.
+          double& square = squares[k + 1 + i];
+          square -= b[0] * b[0];
+          if (square < 1e-6 * known[k + 1 + i]) {
+            square = known[k + 1 + i] = n > 1 ? dot(b + 1, b + 1, n - 1) : 0;
+          }
         },
         1 + 65536 / n);
     ++result.rank;

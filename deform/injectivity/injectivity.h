@@ -1,6 +1,7 @@
 #pragma once
 
-/// Whether a pose folds space anywhere, not only at points that were looked at.
+/// Whether a pose folds space anywhere, not only at points that were looked at ([THB18] section 3
+/// keeps the points of the model from folding).
 ///
 /// What is certified is the frozen volume, leaves included: on the closed unit cube of every patch
 /// det ∂X_pose/∂(u,v,w) has the sign it has at rest, so that x → x' is locally injective there. The
