@@ -11,6 +11,7 @@
 #include "deform/injectivity/dominance.h"
 #include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
+#include "lattice/core/text_scanner.h"
 #include "lattice/volume/bezier_evaluator.h"
 
 namespace espalier {
@@ -20,6 +21,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnit = std::numeric_limits<double>::epsilon();
 constexpr std::size_t kRestBoxes = 200;
 
+double largest_coordinate(std::span<const glm::dvec3> points) {
+  double largest = 0;
+  for (const glm::dvec3& p : points) {
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  return largest;
+}
+
 void require_finite(std::string_view what, std::span<const glm::dvec3> values,
                     std::size_t n_controls) {
   if (values.size() != n_controls) {
@@ -28,19 +37,12 @@ void require_finite(std::string_view what, std::span<const glm::dvec3> values,
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     const glm::dvec3& p = values[i];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+    if (!(largest_coordinate({&p, 1}) <= kLargestCoordinate) || p != p) {
       throw ParameterError(fmt::format(
-          "the {} has control point {} at ({}, {}, {}), must be finite", what, i, p.x, p.y, p.z));
+          "the {} has control point {} at ({}, {}, {}), must be finite, at most 1e18 in size", what,
+          i, p.x, p.y, p.z));
     }
   }
-}
-
-double largest_coordinate(std::span<const glm::dvec3> points) {
-  double largest = 0;
-  for (const glm::dvec3& p : points) {
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
-  return largest;
 }
 
 double value_at(const BoundedPolynomial& polynomial, const glm::dvec3& uvw) {

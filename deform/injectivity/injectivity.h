@@ -67,8 +67,8 @@ class InjectivityCheck {
   explicit InjectivityCheck(std::shared_ptr<const Volume> volume);
 
   /// Of all patches, or of those listed. most_boxes: parts of a patch that may be looked at. Throws
-  /// ParameterError unless pose is #controls finite points. A patch takes some microseconds, one
-  /// that does not move nothing. The same result for any number of threads.
+  /// ParameterError unless pose is #controls points within 1e18. A patch takes some microseconds,
+  /// one that does not move nothing. The same result for any number of threads.
   [[nodiscard]] LocalInjectivity local(std::span<const glm::dvec3> pose,
                                        std::size_t most_boxes = 2000) const;
   [[nodiscard]] LocalInjectivity local(std::span<const glm::dvec3> pose,

@@ -159,8 +159,10 @@ TEST(LocalInjectivity, is_the_same_for_any_number_of_threads) {
 TEST(InjectivityCheck, names_bad_input) {
   const InjectivityCheck check = grid_check();
   auto pose = pose_of(check);
-  pose[5].y = NAN;
-  EXPECT_THROW((void)check.local(pose), ParameterError);
+  for (const double bad : {static_cast<double>(NAN), static_cast<double>(INFINITY), 1e19}) {
+    pose[5].y = bad;
+    EXPECT_THROW((void)check.local(pose), ParameterError);
+  }
   EXPECT_THROW((void)check.largest_step(pose_of(check), pose), ParameterError);
   pose.pop_back();
   EXPECT_THROW((void)check.local(pose), ParameterError);
