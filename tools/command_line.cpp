@@ -198,6 +198,10 @@ ExitStatus run(const Parsed& parsed) {
     if (all.has("threads") && (threads < 1 || threads > 1024)) {
       throw ParameterError("'threads' must be 1 to 1024");
     }
+    if (all.has("output") && all.text("output") == "-") {
+      throw ParameterError(
+          "'output' is '-', must be the name of a file; /dev/stdout is standard output for models");
+    }
     set_thread_count(threads);
     const bool is_quiet = all.flag("quiet");
     const Session session{is_quiet, all.flag("json"), is_quiet ? Progress() : progress_bar()};

@@ -37,7 +37,7 @@ Command info_command() {
           "Tell what a lattice or model file holds, and what is wrong with it",
           {{.name = "file",
             .type = ParameterType::Path,
-            .help = "a lattice (.json, .ovm) or a model (.obj)",
+            .help = "a lattice (.json, .ovm) or a model (.obj, .off, .ply, .stl)",
             .is_required = true,
             .is_positional = true}},
           run};

@@ -118,7 +118,7 @@ Command render_command() {
       "Draw models and lattices into a PNG file",
       {{.name = "scene",
         .type = Type::Path,
-        .help = "models (.obj) and lattices (.json, .ovm)",
+        .help = "models (.obj, .off, .ply, .stl) and lattices (.json, .ovm)",
         .is_required = true,
         .is_positional = true,
         .is_list = true},

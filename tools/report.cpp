@@ -142,11 +142,17 @@ std::string lattice_text(const SubdivisionLattice& lattice) {
       tag["semi_sharp_vertices"].dump(), text_of(bounds.min), text_of(bounds.max));
 }
 
+/// "1 face", "2 faces".
+std::string counted(std::size_t n, std::string_view one, std::string_view more) {
+  return fmt::format("{} {}", n, n == 1 ? one : more);
+}
+
 std::string defective_text(const LatticeReport& report) {
-  std::string text = fmt::format(
-      "subdivision lattice with {} vertices, {} faces, {} cells\n  not valid, {} defects\n",
-      report.raw.polyhedra.n_vertices, report.raw.polyhedra.faces.n_rows(),
-      report.raw.polyhedra.cells.n_rows(), report.defects.size());
+  std::string text =
+      fmt::format("subdivision lattice with {} vertices, {} faces, {}\n  not valid, {}\n",
+                  report.raw.polyhedra.n_vertices, report.raw.polyhedra.faces.n_rows(),
+                  counted(report.raw.polyhedra.cells.n_rows(), "cell", "cells"),
+                  counted(report.defects.size(), "defect", "defects"));
   for (std::size_t i = 0; i < std::min(report.defects.size(), kDefectsShown); ++i) {
     text += fmt::format("  {}: {}\n", name_of(report.defects[i].kind), report.defects[i].message);
   }
@@ -178,10 +184,40 @@ std::string line(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// Adds how many points each lattice holds to a report in JSON and in text.
+Json lock_json(const Lock& lock) {
+  return {{"option", lock.option}, {"faces", lock.faces}, {"controls", lock.controls.size()}};
+}
+
+std::string lock_text(const Lock& lock) {
+  if (lock.faces.empty()) {
+    return "  no boundary face locked: the model does not cross the lattice's boundary\n";
+  }
+  return fmt::format("  {} locked {}: {} as unmoved\n",
+                     counted(lock.faces.size(), "boundary face", "boundary faces"),
+                     lock.option.substr(0, lock.option.find(':')),
+                     counted(lock.controls.size(), "control point counts", "control points count"));
+}
+
+/// Adds how many faces tore.
+void add_torn_faces(const Scene& scene, const std::string& name, Json& json, std::string& text) {
+  const auto torn = scene.torn_faces.find(name);
+  const std::size_t n = torn == scene.torn_faces.end() ? 0 : torn->second;
+  json["torn_faces"] = n;
+  if (n > 0) {
+    text += fmt::format(
+        "  {} torn where the model leaves the lattice; --outside falloff:D or --lock C1 joins {}\n",
+        counted(n, "face is", "faces are"), n == 1 ? "it" : "them");
+  }
+}
+
+/// Adds how many points each lattice holds, and its lock, to a report in JSON and in text.
 void add_counts(const Scene& scene, Json& json, std::string& text) {
   for (const auto& [names, bound] : scene.bound) {
-    const Json counts = counts_json(bound.binding->counts());
+    Json counts = counts_json(bound.binding->counts());
+    const bool is_locked = bound.lock.option != "none";
+    if (is_locked) {
+      counts["lock"] = lock_json(bound.lock);
+    }
     if (scene.bound.size() == 1) {
       json.update(counts);
     } else {
@@ -191,6 +227,7 @@ void add_counts(const Scene& scene, Json& json, std::string& text) {
     text += fmt::format("  {} inside, {} on the border, {} outside, {} unconverged\n",
                         counts["inside"].dump(), counts["border"].dump(), counts["outside"].dump(),
                         counts["unconverged"].dump());
+    text += is_locked ? lock_text(bound.lock) : "";
   }
 }
 
@@ -232,7 +269,10 @@ std::string result_report(const Scene& scene, const std::string& name, const std
   json["output"] = path;
   std::string text =
       fmt::format("{}: {} points, {} faces\n", path, model.points().size(), model.faces().n_rows());
-  add_counts(scene, json, text);
+  if (!scene.bound.empty()) {
+    add_counts(scene, json, text);
+    add_torn_faces(scene, name, json, text);
+  }
   return is_json ? line(json) : text;
 }
 

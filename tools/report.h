@@ -27,7 +27,8 @@ struct LatticeReport {
                                          bool is_json);
 
 /// What an operation made: `name` in the scene, now in the file `path`; for a bound model also how
-/// many points each lattice holds: "inside" …, with several lattices in "lattices" by name.
+/// many points each lattice holds: "inside" …, with several lattices in "lattices" by name, what is
+/// locked, and how many faces tore.
 [[nodiscard]] std::string result_report(const Scene& scene, const std::string& name,
                                         const std::string& path, bool is_json);
 

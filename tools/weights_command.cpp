@@ -59,7 +59,7 @@ Command weights_command() {
           "Write how a model's points depend on the control points, as a sparse matrix",
           {{.name = "model",
             .type = ParameterType::Path,
-            .help = "the model (.obj)",
+            .help = "the model (.obj, .off, .ply, .stl)",
             .is_required = true,
             .is_positional = true},
            {.name = "lattice",

@@ -70,8 +70,11 @@ BoundaryFace::BoundaryFace(const BezierView& patch, int face) : face_(face) {
   const int first = face % 2 == 0 ? 0 : patch.degree[axis] * stride[axis];
   for (int j = 0; j <= degree_[1]; ++j) {
     for (int i = 0; i <= degree_[0]; ++i) {
-      points_.push_back(patch.points[static_cast<std::size_t>(first + i * stride[axes_[0]] +
-                                                              j * stride[axes_[1]])]);
+      const auto at = static_cast<std::size_t>(first + i * stride[axes_[0]] + j * stride[axes_[1]]);
+      points_.push_back(patch.points[at]);
+      if (patch.is_rational()) {
+        weights_.emplace_back(patch.weights[at]);
+      }
     }
   }
   for (int j = 0; j < n_samples(1); ++j) {
@@ -89,7 +92,32 @@ glm::dvec3 BoundaryFace::uvw(const glm::dvec2& st) const {
   return result;
 }
 
+Box BoundaryFace::hull_box() const {
+  Box box;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    box.add(weights_.empty() ? points_[i] : points_[i] / weights_[i]);
+  }
+  return box;
+}
+
 BoundaryFace::Jet BoundaryFace::jet(const glm::dvec2& st) const {
+  const Jet sum = polynomial_jet(points_, st);
+  if (weights_.empty()) {
+    return sum;
+  }
+  const Jet weight = polynomial_jet(weights_, st);
+  Jet jet;
+  jet.value = sum.value / weight.value;
+  jet.s = (sum.s - weight.s * jet.value) / weight.value;
+  jet.t = (sum.t - weight.t * jet.value) / weight.value;
+  jet.ss = (sum.ss - 2.0 * weight.s * jet.s - weight.ss * jet.value) / weight.value;
+  jet.st = (sum.st - weight.s * jet.t - weight.t * jet.s - weight.st * jet.value) / weight.value;
+  jet.tt = (sum.tt - 2.0 * weight.t * jet.t - weight.tt * jet.value) / weight.value;
+  return jet;
+}
+
+BoundaryFace::Jet BoundaryFace::polynomial_jet(const std::vector<glm::dvec3>& points,
+                                               const glm::dvec2& st) const {
   const auto n_rows = static_cast<std::size_t>(degree_[1]) + 1;
   const auto n = static_cast<std::size_t>(degree_[0]) + 1;
   std::vector<glm::dvec3> row(n);
@@ -98,7 +126,7 @@ BoundaryFace::Jet BoundaryFace::jet(const glm::dvec2& st) const {
   const std::span firsts(columns.data() + n_rows, n_rows);
   const std::span seconds(columns.data() + 2 * n_rows, n_rows);
   for (std::size_t j = 0; j < n_rows; ++j) {
-    std::copy_n(points_.begin() + static_cast<std::ptrdiff_t>(j * n), n, row.begin());
+    std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(j * n), n, row.begin());
     const CurveJet along = curve_jet(row, st.x);
     values[j] = along.value;
     firsts[j] = along.first;

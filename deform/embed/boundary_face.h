@@ -29,7 +29,7 @@ class BoundaryFace {
   /// sample.
   [[nodiscard]] Closest closest(const glm::dvec3& x) const;
 
-  [[nodiscard]] Box hull_box() const { return box_of(points_); }
+  [[nodiscard]] Box hull_box() const;
   /// The parameters of the hexahedron that s and t are.
   [[nodiscard]] const std::array<int, 2>& axes() const { return axes_; }
   [[nodiscard]] glm::dvec3 uvw(const glm::dvec2& st) const;
@@ -40,6 +40,9 @@ class BoundaryFace {
     glm::dvec3 value, s, t, ss, st, tt;
   };
   [[nodiscard]] Jet jet(const glm::dvec2& st) const;
+  /// Of Σ B points; points: as many as the face has points.
+  [[nodiscard]] Jet polynomial_jet(const std::vector<glm::dvec3>& points,
+                                   const glm::dvec2& st) const;
   /// Whether a step from a point at `from` relative to x, with `slope` there, leads nearer: by
   /// distance, or by the slope where distances differ only by round-off.
   [[nodiscard]] static bool is_better(const glm::dvec3& from, const glm::dvec2& slope,
@@ -52,7 +55,8 @@ class BoundaryFace {
   int face_;
   std::array<int, 2> axes_;
   std::array<int, 2> degree_;
-  std::vector<glm::dvec3> points_;   // s fastest
+  std::vector<glm::dvec3> points_;   // s fastest; numerators if there are weights
+  std::vector<glm::dvec3> weights_;  // of a rational face, each in all three components; or empty
   std::vector<glm::dvec3> samples_;  // a grid of n_samples() each way, s fastest
 };
 

@@ -7,24 +7,13 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "lattice/core/progress.h"
+#include "lattice/volume/point_locator.h"
 #include "lattice/volume/volume.h"
 
 namespace espalier {
-
-/// How a point relates to the volume.
-enum class PointStatus : std::uint8_t {
-  Inside,
-  Border,      ///< within 1e-9 of the lattice's diagonal of the volume's boundary, on either side
-  Outside,     ///< stays where it is, or follows the boundary if it is in the fringe
-  Unconverged  ///< a patch may hold it, but no parameters were found; stays where it is
-};
-
-/// "inside", "border", "outside" or "unconverged".
-[[nodiscard]] std::string_view name_of(PointStatus status);
 
 /// How many points have each status.
 struct StatusCounts {
@@ -56,11 +45,12 @@ struct Binding {
   [[nodiscard]] StatusCounts counts() const;
 };
 
-/// Finds every point's place. Points that several patches share go to the lowest patch; a point
-/// inside is never missed: where Newton's method fails the patch is subdivided. A point that no
-/// patch holds goes to the leaf that it lies least beyond, if that is within kLeafReach and not
-/// across the volume's boundary. The same result for any number of threads. points: model units,
-/// finite. O(#points log #patches). Tells `progress` "embed".
+/// Finds every point's place, as PointLocator tells. The same result for any number of threads.
+/// points: model units, finite. O(#points log #patches). Tells `progress` "embed".
+[[nodiscard]] Binding embed(const PointLocator& locator, std::span<const glm::dvec3> points,
+                            const Progress& progress = {});
+
+/// The same where the volume is asked once: makes the locator.
 [[nodiscard]] Binding embed(const Volume& volume, std::span<const glm::dvec3> points,
                             const Progress& progress = {});
 

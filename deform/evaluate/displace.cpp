@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "deform/evaluate/evaluator.h"
 #include "lattice/core/parallel.h"
 
 namespace espalier {
@@ -38,30 +39,67 @@ void for_each_moved_run(const Volume& volume, std::span<const std::int32_t> patc
   });
 }
 
-/// Calls take(point, move) for every point of a patch that moves; a move may be zero.
+/// Places of a binding or its fringe, those in moved patches, as an evaluator takes them.
+struct MovedPlaces {
+  std::vector<std::size_t> indices;  ///< into the arrays that they come from
+  std::vector<std::int32_t> patches;
+  std::vector<glm::dvec3> uvw;
+};
+
+/// Calls work(places) for ranges of the places in moved patches, in parallel. patches, uvw: of all
+/// places, ascending.
+template <class Work>
+void for_each_moved_range(const Volume& volume, std::span<const std::int32_t> patches,
+                          std::span<const glm::dvec3> uvw, const VolumeMotion<double>& motion,
+                          const Work& work) {
+  parallel_ranges(patches.size(), kPointsPerRange, [&](std::size_t begin, std::size_t end) {
+    MovedPlaces places;
+    for (std::size_t next = begin; begin < end; begin = next) {
+      while (next < end && patches[next] == patches[begin]) {
+        ++next;
+      }
+      if (motion.is_any_moved(volume.block(static_cast<std::size_t>(patches[begin])))) {
+        for (std::size_t i = begin; i < next; ++i) {
+          places.indices.push_back(i);
+          places.patches.push_back(patches[i]);
+          places.uvw.push_back(uvw[i]);
+        }
+      }
+    }
+    if (!places.indices.empty()) {
+      work(places);
+    }
+  });
+}
+
+/// Calls take(index, move) for every place in a moved patch; a move may be zero.
+template <class Take>
+void for_each_move(const Volume& volume, std::span<const std::int32_t> patches,
+                   std::span<const glm::dvec3> uvw, const VolumeMotion<double>& motion,
+                   const Take& take) {
+  for_each_moved_range(volume, patches, uvw, motion, [&](const MovedPlaces& places) {
+    std::vector<glm::dvec3> moves(places.indices.size());
+    Evaluator<double>(volume, {places.patches, places.uvw, {}}).evaluate(motion, {.points = moves});
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      take(places.indices[i], moves[i]);
+    }
+  });
+}
+
+/// Calls take(point, move) for every bound point in a moved patch.
 template <class Take>
 void for_each_move(const Volume& volume, const Binding& binding,
                    std::span<const glm::dvec3> displacements, const Take& take) {
-  for_each_moved_run(volume, binding.patches, displacements, [&] {
-    return
-        [&, moves = BezierPatch()](std::size_t patch, std::size_t begin, std::size_t end) mutable {
-          volume.bezier(patch, displacements, moves);
-          for (std::size_t i = begin; i < end; ++i) {
-            take(static_cast<std::size_t>(binding.points[i]), moves.value(binding.uvw[i]));
-          }
-        };
-  });
+  const VolumeMotion<double> motion(displacements);
+  for_each_move(volume, binding.patches, binding.uvw, motion,
+                [&](std::size_t i, const glm::dvec3& move) {
+                  take(static_cast<std::size_t>(binding.points[i]), move);
+                });
   const Fringe& fringe = binding.fringe;
-  for_each_moved_run(volume, fringe.patches, displacements, [&] {
-    return
-        [&, moves = BezierPatch()](std::size_t patch, std::size_t begin, std::size_t end) mutable {
-          volume.bezier(patch, displacements, moves);
-          for (std::size_t i = begin; i < end; ++i) {
-            take(static_cast<std::size_t>(fringe.points[i]),
-                 fringe.weights[i] * moves.value(fringe.uvw[i]));
-          }
-        };
-  });
+  for_each_move(volume, fringe.patches, fringe.uvw, motion,
+                [&](std::size_t i, const glm::dvec3& move) {
+                  take(static_cast<std::size_t>(fringe.points[i]), fringe.weights[i] * move);
+                });
 }
 
 /// By the product rule: ∂(weight · move)/∂x for the fringe's points.
@@ -113,20 +151,17 @@ std::vector<glm::dvec3> point_displacements(const Volume& volume, const Binding&
 std::vector<glm::dmat3> deformation_gradients(const Volume& volume, const Binding& binding,
                                               std::span<const glm::dvec3> displacements) {
   std::vector<glm::dmat3> gradients(binding.status.size(), glm::dmat3(1));
-  for_each_moved_run(volume, binding.patches, displacements, [&] {
-    return [&, moves = BezierPatch(), rest = BezierPatch()](std::size_t patch, std::size_t begin,
-                                                            std::size_t end) mutable {
-      volume.bezier(patch, displacements, moves);
-      volume.bezier(patch, volume.rest_points(), rest);
-      for (std::size_t i = begin; i < end; ++i) {
-        const glm::dmat3 by_parameters = moves.derivative(binding.uvw[i]);
-        if (by_parameters != glm::dmat3(0)) {
-          gradients[static_cast<std::size_t>(binding.points[i])] =
-              glm::dmat3(1) + by_parameters * glm::inverse(rest.derivative(binding.uvw[i]));
+  const VolumeMotion<double> motion(displacements);
+  for_each_moved_range(
+      volume, binding.patches, binding.uvw, motion, [&](const MovedPlaces& places) {
+        std::vector<glm::dmat3> found(places.indices.size());
+        Evaluator<double>(volume,
+                          {.patches = places.patches, .uvw = places.uvw, .has_gradients = true})
+            .evaluate(motion, {.gradients = found});
+        for (std::size_t i = 0; i < found.size(); ++i) {
+          gradients[static_cast<std::size_t>(binding.points[places.indices[i]])] = found[i];
         }
-      }
-    };
-  });
+      });
   add_fringe_gradients(volume, binding.fringe, displacements, gradients);
   return gradients;
 }

@@ -43,7 +43,7 @@ void add_stencil(const StencilTable::Row& stencil, double weight, StencilRow& ro
   }
 }
 
-/// The row of a place in a patch.
+/// The row of a place in a patch; of a rational patch, w B / Σ w B instead of B.
 void add_place(const Volume& volume, std::size_t patch, const glm::dvec3& uvw, StencilRow& row) {
   std::array<std::vector<double>, 3> axes;
   for (int a = 0; a < 3; ++a) {
@@ -51,17 +51,28 @@ void add_place(const Volume& volume, std::size_t patch, const glm::dvec3& uvw, S
     axes[axis] =
         coefficient_weights(volume.extractions()[volume.patch(patch).extractions[axis]], uvw[a]);
   }
-  auto point = volume.block(patch).begin();
-  for (const double w : axes[2]) {
-    for (const double v : axes[1]) {
-      for (const double u : axes[0]) {
-        if (const double weight = u * v * w; weight != 0) {
-          add_stencil(volume.stencils()[static_cast<std::size_t>(*point)], weight, row);
+  const std::span<const double> weights = volume.weights();
+  const auto for_each_point = [&](const auto& visit) {
+    auto point = volume.block(patch).begin();
+    for (const double w : axes[2]) {
+      for (const double v : axes[1]) {
+        for (const double u : axes[0]) {
+          const auto at = static_cast<std::size_t>(*point++);
+          visit(at, weights.empty() ? u * v * w : u * v * w * weights[at]);
         }
-        ++point;
       }
     }
+  };
+  double sum = 1;
+  if (!weights.empty()) {
+    sum = 0;
+    for_each_point([&](std::size_t, double weight) { sum += weight; });
   }
+  for_each_point([&](std::size_t point, double weight) {
+    if (weight != 0) {
+      add_stencil(volume.stencils()[point], weight / sum, row);
+    }
+  });
 }
 
 }  // namespace

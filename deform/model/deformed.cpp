@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "deform/model/encoded_number.h"
 #include "deform/model/model_file.h"
 #include "deform/model/normals.h"
-#include "deform/model/number_text.h"
 #include "deform/model/splices.h"
 #include "lattice/core/error.h"
 #include "lattice/core/text_scanner.h"
@@ -27,7 +27,7 @@ bool has_same_bits(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 void require_valid(const Model& model, std::span<const glm::dvec3> points,
-                   std::span<const glm::dvec3> pair_normals) {
+                   std::span<const glm::dvec3> pair_normals, NormalMode mode) {
   if (points.size() != model.points().size()) {
     throw ParameterError(fmt::format("deformed: {} points given, {} has {}", points.size(),
                                      model.path(), model.points().size()));
@@ -37,6 +37,10 @@ void require_valid(const Model& model, std::span<const glm::dvec3> points,
         fmt::format("deformed: {} normals given, {} has {} pairs of point and "
                     "normal",
                     pair_normals.size(), model.path(), model.pairs().size()));
+  }
+  if (mode == NormalMode::Add && model.pairs().empty() && model.format() != ModelFormat::Obj) {
+    throw ParameterError(fmt::format(
+        "normals: only a model in an OBJ file can be given normals, {} has none", model.path()));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -51,10 +55,11 @@ void require_valid(const Model& model, std::span<const glm::dvec3> points,
 }
 
 void replace_coordinates(const CoordinatePlaces& places, const glm::dvec3& old_numbers,
-                         const glm::dvec3& new_numbers, NumberEncoding encoding, Splices& splices) {
+                         const glm::dvec3& new_numbers, NumberEncoding of_file, Splices& splices) {
   for (int axis = 0; axis < 3; ++axis) {
+    const NumberEncoding encoding = with_size(of_file, places.axis[axis].length());
     if (!is_same_number(old_numbers[axis], new_numbers[axis], encoding)) {
-      splices.replace(places.axis[axis], NumberText(new_numbers[axis], encoding).view());
+      splices.replace(places.axis[axis], EncodedNumber(new_numbers[axis], encoding).view());
     }
   }
 }
@@ -63,14 +68,34 @@ void replace_coordinates(const CoordinatePlaces& places, const glm::dvec3& old_n
 bool replace_points(const Model& model, std::span<const glm::dvec3> points, Splices& splices) {
   const ModelLayout& layout = model.layout();
   bool is_moved = false;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t place = 0; place < layout.point_places.size(); ++place) {
+    const std::size_t i = layout.points_of_places.empty()
+                              ? place
+                              : static_cast<std::size_t>(layout.points_of_places[place]);
     if (!has_same_bits(points[i], layout.points[i])) {
       is_moved = true;
-      replace_coordinates(layout.point_places[i], layout.points[i], points[i], layout.encoding,
+      replace_coordinates(layout.point_places[place], layout.points[i], points[i], layout.encoding,
                           splices);
     }
   }
   return is_moved;
+}
+
+/// Facets that moved get the normal of their triangle, unless they had none, or have none now.
+void replace_facet_normals(const Model& model, std::span<const glm::dvec3> points,
+                           Splices& splices) {
+  const ModelLayout& layout = model.layout();
+  for (std::size_t facet = 0; facet < layout.facet_normals.size(); ++facet) {
+    const std::span<const std::int32_t> corners = layout.faces[facet];
+    const bool is_moved = std::ranges::any_of(
+        corners, [&](std::int32_t i) { return !has_same_bits(points[i], layout.points[i]); });
+    const glm::dvec3 normal = unit_or_zero(glm::cross(points[corners[1]] - points[corners[0]],
+                                                      points[corners[2]] - points[corners[0]]));
+    const glm::dvec3& old = layout.facet_normals[facet];
+    if (is_moved && old != glm::dvec3(0) && normal != glm::dvec3(0)) {
+      replace_coordinates(layout.facet_places[facet], old, normal, layout.normal_encoding, splices);
+    }
+  }
 }
 
 /// Normals that stand before a byte of the file.
@@ -118,7 +143,7 @@ std::string normal_line(const glm::dvec3& normal, NumberEncoding encoding) {
   std::string line = "vn";
   for (int axis = 0; axis < 3; ++axis) {
     line += ' ';
-    line += NumberText(normal[axis], encoding).view();
+    line += EncodedNumber(normal[axis], encoding).view();
   }
   return line;
 }
@@ -148,10 +173,10 @@ void replace_normals(const Model& model, const NormalPlan& plan, Splices& splice
   for (std::size_t normal = 0; normal < layout.normals.size(); ++normal) {
     const std::span<const glm::dvec3> values = plan.values[normal];
     replace_coordinates(layout.normal_places[normal], layout.normals[normal], values[0],
-                        layout.encoding, splices);
+                        layout.normal_encoding, splices);
     for (const glm::dvec3& value : values.subspan(1)) {
       splices.insert(layout.normal_ends[normal],
-                     std::string(layout.line_end) + normal_line(value, layout.encoding));
+                     std::string(layout.line_end) + normal_line(value, layout.normal_encoding));
     }
     first_new.push_back(first_new.back() + values.size());
   }
@@ -193,7 +218,7 @@ void add_normals(const Model& model, std::span<const glm::dvec3> points, Splices
     if (normals[point] != glm::dvec3(0)) {
       normal_of_point[point] = next++;
       splices.insert(layout.first_face,
-                     normal_line(normals[point], layout.encoding).append(layout.line_end));
+                     normal_line(normals[point], layout.normal_encoding).append(layout.line_end));
     }
   }
   std::vector<std::size_t> first_new(layout.normals.size() + 1);
@@ -214,9 +239,10 @@ void add_normals(const Model& model, std::span<const glm::dvec3> points, Splices
 
 std::string deformed_bytes(const Model& model, std::span<const glm::dvec3> points,
                            std::span<const glm::dvec3> pair_normals, NormalMode mode) {
-  require_valid(model, points, pair_normals);
+  require_valid(model, points, pair_normals, mode);
   Splices splices;
   const bool is_moved = replace_points(model, points, splices);
+  replace_facet_normals(model, points, splices);
   if (!pair_normals.empty()) {
     const bool can_split = !model.layout().normal_ends.empty() && mode != NormalMode::Keep;
     replace_normals(

@@ -29,9 +29,11 @@ enum class NormalMode : std::uint8_t {
 /// share a normal share the new one where theirs differ by no more than 1e-6; further ones
 /// follow it on lines of their own, and references whose numbers change are rewritten.
 ///
+/// Normals that a file writes facet by facet become those of the moved triangles.
+///
 /// If nothing moved the bytes are the model's own.
-/// Throws ParameterError for a wrong number of points or normals, and for a point that is not
-/// finite or beyond kLargestCoordinate. O(bytes).
+/// Throws ParameterError for a wrong number of points or normals, for a point that is not finite or
+/// beyond kLargestCoordinate, and if normals are to be added to a file that is no OBJ. O(bytes).
 [[nodiscard]] std::string deformed_bytes(const Model& model, std::span<const glm::dvec3> points,
                                          std::span<const glm::dvec3> pair_normals,
                                          NormalMode mode = NormalMode::Deform);

@@ -14,7 +14,7 @@
 
 namespace espalier {
 
-enum class ModelFormat : std::uint8_t { Obj };
+enum class ModelFormat : std::uint8_t { Obj, Off, Ply, Stl };
 
 /// A polygon model as read from a file. A value: immutable, and copies share everything.
 class Model {

@@ -7,6 +7,9 @@
 #include <utility>
 
 #include "deform/model/obj.h"
+#include "deform/model/off.h"
+#include "deform/model/ply.h"
+#include "deform/model/stl.h"
 #include "lattice/core/error.h"
 #include "lattice/core/file.h"
 
@@ -21,6 +24,9 @@ struct FormatEntry {
 
 constexpr FormatEntry kFormats[] = {
     {ModelFormat::Obj, ".obj", parse_obj},
+    {ModelFormat::Off, ".off", parse_off},
+    {ModelFormat::Ply, ".ply", parse_ply},
+    {ModelFormat::Stl, ".stl", parse_stl},
 };
 
 std::string extension_of(const std::string& path) {

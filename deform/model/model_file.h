@@ -8,7 +8,8 @@
 
 namespace espalier {
 
-/// Reads the model at `path`; its extension (.obj, in any case) says how.
+/// Reads the model at `path`; its extension (.obj, .off, .ply or .stl, in any case)
+/// says how.
 /// Throws FileError for an unknown extension, or as the format's parser does.
 [[nodiscard]] Model read_model(const std::string& path);
 

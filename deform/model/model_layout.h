@@ -41,8 +41,12 @@ struct CoordinatePlaces {
 
 /// How a file writes its coordinates.
 enum class NumberEncoding : std::uint8_t {
-  FloatText,   ///< decimal digits that tell floats apart
-  DoubleText,  ///< decimal digits that tell doubles apart
+  FloatText,     ///< decimal digits that tell floats apart
+  DoubleText,    ///< decimal digits that tell doubles apart
+  LittleFloat,   ///< four bytes, the least significant first
+  BigFloat,      ///< four bytes, the most significant first
+  LittleDouble,  ///< eight bytes
+  BigDouble,
 };
 
 /// A point with one of its normals.
@@ -76,13 +80,19 @@ struct NormalReferences {
 /// All indices count from 0.
 struct ModelLayout {
   std::vector<glm::dvec3> points;               ///< #P × 3, model units
-  std::vector<CoordinatePlaces> point_places;   ///< #P
+  std::vector<CoordinatePlaces> point_places;   ///< #P, or as many as points_of_places
   std::vector<glm::dvec3> normals;              ///< #N × 3, as written, of any length
   std::vector<CoordinatePlaces> normal_places;  ///< #N
   CompressedRows<std::int32_t> faces;           ///< points at the corners of each polygon
   std::vector<PointNormal> pairs;               ///< that occur; sorted by point, then normal
   std::vector<FaceGroup> groups;                ///< in the order of their first mention
-  NumberEncoding encoding = NumberEncoding::FloatText;
+  NumberEncoding encoding = NumberEncoding::FloatText;  ///< but see with_size()
+  NumberEncoding normal_encoding = NumberEncoding::FloatText;
+
+  // For formats that write a point once for every face.
+  std::vector<std::int32_t> points_of_places;  ///< the point at each place; empty: place i, point i
+  std::vector<glm::dvec3> facet_normals;       ///< #faces, as written, or none
+  std::vector<CoordinatePlaces> facet_places;  ///< of the facets' normals
 
   // For formats that number their normals.
   std::vector<std::size_t> normal_ends;  ///< #N; a new normal's line may start after this byte

@@ -12,7 +12,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "deform/model/number_text.h"
+#include "deform/model/encoded_number.h"
 #include "deform/model/pairs.h"
 #include "lattice/core/text_scanner.h"
 
@@ -352,6 +352,7 @@ ModelLayout ObjScanner::finish() {
   if (counts_[Normal] > 0 && (has_corner_normals_ || !others_.empty())) {
     find_pairs();
   }
+  layout_.normal_encoding = layout_.encoding;
   layout_.line_end = line_end_of(bytes_);
   return std::move(layout_);
 }

@@ -46,4 +46,13 @@ UniquePairs unique_pairs(std::span<const PointNormal> uses, std::size_t n_points
   return result;
 }
 
+void pair_points_with_own_normals(ModelLayout& layout) {
+  for (std::size_t i = 0; i < layout.points.size(); ++i) {
+    const auto index = static_cast<std::int32_t>(i);
+    layout.pairs.push_back({index, index});
+  }
+  const std::span<const std::int32_t> corners = layout.faces.values();
+  layout.corners.pairs.assign(corners.begin(), corners.end());
+}
+
 }  // namespace espalier

@@ -25,4 +25,7 @@ struct UniquePairs {
 /// O(uses + points), times the logarithm of the number of uses of one point.
 [[nodiscard]] UniquePairs unique_pairs(std::span<const PointNormal> uses, std::size_t n_points);
 
+/// Makes normal i that of point i, wherever the point is used. layout: #P normals, and its faces.
+void pair_points_with_own_normals(ModelLayout& layout);
+
 }  // namespace espalier

@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "deform/model/encoded_number.h"
 #include "deform/model/model_file.h"
-#include "deform/model/number_text.h"
 #include "lattice/core/error.h"
 #include "lattice/osd/refine_surface.h"
 
@@ -15,7 +15,7 @@ Model make_obj_model(std::span<const glm::dvec3> points, const CompressedRows<st
     bytes += 'v';
     for (int axis = 0; axis < 3; ++axis) {
       bytes += ' ';
-      bytes += NumberText(point[axis], NumberEncoding::FloatText).view();
+      bytes += EncodedNumber(point[axis], NumberEncoding::FloatText).view();
     }
     bytes += '\n';
   }

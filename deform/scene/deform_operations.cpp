@@ -1,9 +1,9 @@
 /// Operations that move models with lattices.
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "deform/evaluate/combine.h"
@@ -11,6 +11,7 @@
 #include "deform/model/deformed.h"
 #include "deform/model/point_selection.h"
 #include "deform/scene/bind.h"
+#include "deform/scene/lock.h"
 #include "deform/scene/operations.h"
 #include "lattice/core/error.h"
 
@@ -18,6 +19,9 @@ namespace espalier {
 namespace {
 
 using Type = ParameterType;
+
+/// Faces whose parts separate by less than this part of the lattice's diagonal are whole.
+constexpr double kTearing = 1e-9;
 
 /// The vertices of every cell, cells sorted: what a lattice and its pose must have in common.
 std::vector<std::vector<VertexId>> sorted_cells(const CellComplex& complex) {
@@ -87,6 +91,16 @@ void require_one_for_each_lattice(const Arguments& arguments, const std::string&
   }
 }
 
+/// The lock of the i-th lattice; one that names no faces may stand for all.
+std::string lock_of(const Arguments& arguments, std::size_t i) {
+  const std::vector<std::string> locks = arguments.texts("lock");
+  if (locks.size() == 1 && locks.front().find(':') == std::string::npos) {
+    return locks.front();
+  }
+  require_one_for_each_lattice(arguments, "lock");
+  return locks.empty() ? "none" : locks[i];
+}
+
 Influence influence_of(const Model& model, const Arguments& arguments) {
   const std::vector<std::string> only = arguments.texts("only");
   return {arguments.number("strength"),
@@ -124,20 +138,46 @@ Scene bind(const Scene& scene, const Arguments& arguments, const Progress& progr
   return result;
 }
 
+/// What one lattice of `deform` does.
+struct LatticeAction {
+  LatticeMotion motion;
+  std::vector<std::int32_t> torn_faces;
+};
+
+/// Binds the model to the i-th lattice and poses that; the scene keeps what the next pose can use.
+LatticeAction act(Scene& scene, const Arguments& arguments, std::size_t i,
+                  const Influence& influence, const Progress& progress) {
+  const std::string& model = arguments.text("model");
+  const std::string lattice = arguments.texts("lattice")[i];
+  std::vector<glm::dvec3> pose = pose_of(scene, arguments, i);
+  scene = bound_by(scene, arguments, i, progress);
+  scene = with_lock(scene, model, lattice, lock_of(arguments, i));
+  const auto bound = [&]() -> const BoundModel& { return scene.bound.at({model, lattice}); };
+  const Volume& volume = *bound().volume;
+  const std::span<const glm::dvec3> rest = volume.rest_controls();
+  pose = locked_pose(std::move(pose), rest, bound().lock);
+  LatticeAction action{{bound().volume, bound().binding, volume.displacements(pose)}, {}};
+  const bool is_at_rest = std::ranges::equal(pose, rest);
+  if (bound().outside == "keep" && !is_at_rest && bound().binding->counts().outside > 0) {
+    scene = with_crossings(scene, model, lattice);
+    action.torn_faces =
+        torn_faces(*bound().crossings, rest, pose, influence, kTearing * volume.diagonal());
+  }
+  return action;
+}
+
 Scene deform(const Scene& scene, const Arguments& arguments, const Progress& progress) {
   require_one_for_each_lattice(arguments, "pose");
   require_one_for_each_lattice(arguments, "binding");
-  const std::string& model_name = arguments.text("model");
-  const Model& model = model_in(scene, model_name);
+  const Model& model = model_in(scene, arguments.text("model"));
   const Influence influence = influence_of(model, arguments);
-  const std::vector<std::string> lattices = arguments.texts("lattice");
   Scene result = scene;
   std::vector<LatticeMotion> motions;
-  for (std::size_t i = 0; i < lattices.size(); ++i) {
-    const std::vector<glm::dvec3> pose = pose_of(scene, arguments, i);
-    result = bound_by(result, arguments, i, progress);
-    const BoundModel& bound = result.bound.at({model_name, lattices[i]});
-    motions.push_back({bound.volume, bound.binding, bound.volume->displacements(pose)});
+  std::set<std::int32_t> torn;
+  for (std::size_t i = 0; i < arguments.texts("lattice").size(); ++i) {
+    LatticeAction action = act(result, arguments, i, influence, progress);
+    motions.push_back(std::move(action.motion));
+    torn.insert(action.torn_faces.begin(), action.torn_faces.end());
   }
   const std::vector<glm::dvec3> points = combined_points(model.points(), motions, influence);
   std::vector<glm::dvec3> normals;
@@ -145,7 +185,59 @@ Scene deform(const Scene& scene, const Arguments& arguments, const Progress& pro
     normals = turned_normals(model, combined_gradients(points.size(), motions, influence));
   }
   Model moved = deformed(model, points, normals, normal_mode(arguments.text("normals")));
-  return with_model(std::move(result), arguments.text("output"), std::move(moved));
+  const std::string& output = arguments.text("output");
+  result = with_model(std::move(result), output, std::move(moved));
+  if (!torn.empty()) {
+    result.torn_faces[output] = torn.size();
+  }
+  return result;
+}
+
+Parameter model_parameter() {
+  return {.name = "model",
+          .type = Type::Model,
+          .help = "the model (.obj, .off, .ply, .stl)",
+          .is_required = true,
+          .is_positional = true};
+}
+
+Parameter lattice_parameter() {
+  return {.name = "lattice",
+          .type = Type::Lattice,
+          .help = "the lattice at rest (.json, .ovm)",
+          .is_required = true};
+}
+
+Parameter freeze_parameter() {
+  return {.name = "freeze",
+          .type = Type::Text,
+          .help =
+              "adaptive[:TOLERANCE], or uniform:N, the lattice refined N times (default "
+              "adaptive, 1e-5 of the lattice's diagonal)",
+          .fallback = Value(BindOptions().freeze)};
+}
+
+Parameter outside_parameter() {
+  return {.name = "outside",
+          .type = Type::Text,
+          .help =
+              "what points outside the lattice do: keep (default), or falloff:D, follow its "
+              "boundary, fading out over distance D",
+          .fallback = Value(BindOptions().outside)};
+}
+
+/// One that takes several values; `more` continues its help.
+Parameter repeating(Parameter parameter, const char* more) {
+  parameter.is_list = true;
+  parameter.help += more;
+  return parameter;
+}
+
+/// One that a binding decides where it is not given.
+Parameter as_bound(Parameter parameter) {
+  parameter.help += ", or as the binding given by --binding";
+  parameter.fallback.reset();
+  return parameter;
 }
 
 }  // namespace
@@ -154,25 +246,10 @@ std::vector<Operation> deform_operations() {
   return {
       {"bind",
        "Tie a model to a lattice once, for many deformations",
-       {{.name = "model",
-         .type = Type::Model,
-         .help = "the model (.obj)",
-         .is_required = true,
-         .is_positional = true},
-        {.name = "lattice",
-         .type = Type::Lattice,
-         .help = "the lattice at rest (.json, .ovm)",
-         .is_required = true},
-        {.name = "freeze",
-         .type = Type::Text,
-         .help = "adaptive[:TOLERANCE], or uniform:N, the lattice refined N times (default "
-                 "adaptive, 1e-5 of the lattice's diagonal)",
-         .fallback = Value(BindOptions().freeze)},
-        {.name = "outside",
-         .type = Type::Text,
-         .help = "what points outside the lattice do: keep (default), or falloff:D, follow its "
-                 "boundary, fading out over distance D",
-         .fallback = Value(BindOptions().outside)},
+       {model_parameter(),
+        lattice_parameter(),
+        freeze_parameter(),
+        outside_parameter(),
         {.name = "output",
          .type = Type::Path,
          .help = "the binding, a file for `deform --binding`",
@@ -180,23 +257,13 @@ std::vector<Operation> deform_operations() {
        bind},
       {"deform",
        "Deform a model with a lattice and its pose",
-       {{.name = "model",
-         .type = Type::Model,
-         .help = "the model (.obj)",
-         .is_required = true,
-         .is_positional = true},
-        {.name = "lattice",
-         .type = Type::Lattice,
-         .help = "the lattice at rest (.json, .ovm); may repeat: what they do to the model at rest "
-                 "adds up",
-         .is_required = true,
-         .is_list = true},
+       {model_parameter(),
+        repeating(lattice_parameter(), "; may repeat: what they do to the model at rest adds up"),
         {.name = "pose",
          .type = Type::Pose,
          .help = "the lattice posed: its pose if it has one, else its points (default: the pose in "
                  "--lattice); repeats in the lattices' order; on the command line a quoted pattern "
-                 "such "
-                 "as 'poses/*.json' for many poses in one run",
+                 "such as 'poses/*.json' for many poses in one run",
          .is_list = true},
         {.name = "strength",
          .type = Type::Number,
@@ -216,14 +283,15 @@ std::vector<Operation> deform_operations() {
          .type = Type::Path,
          .help = "what `bind` wrote for this model and lattice; repeats in the lattices' order",
          .is_list = true},
-        {.name = "freeze",
+        as_bound(freeze_parameter()),
+        as_bound(outside_parameter()),
+        {.name = "lock",
          .type = Type::Text,
-         .help = "adaptive[:TOLERANCE], or uniform:N, the lattice refined N times (default: as the "
-                 "binding was, else adaptive, 1e-5 of the lattice's diagonal)"},
-        {.name = "outside",
-         .type = Type::Text,
-         .help = "what points outside the lattice do: keep, or falloff:D, follow its boundary, "
-                 "fading out over distance D (default: as the binding was, else keep)"},
+         .help = "keep the lattice still where the model leaves it, so that the motion joins what "
+                 "stays in position (C0), slope too (C1) or curvature too (C2): at the boundary "
+                 "faces that the model crosses, or, as C1:0,5,7, at these faces of the lattice's "
+                 "file; repeats in the lattices' order, or stands for all (default none)",
+         .is_list = true},
         {.name = "normals",
          .type = Type::Choice,
          .help = "deform them, keep their number, or add them where the file has none (default "

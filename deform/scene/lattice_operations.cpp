@@ -212,7 +212,8 @@ std::vector<Operation> lattice_operations() {
        "Make a lattice from a surface mesh by extruding it, or write a lattice in another format",
        {{.name = "mesh",
          .type = Type::ModelOrLattice,
-         .help = "an open surface mesh (.obj), every face of which becomes a stack of cells; or a "
+         .help = "an open surface mesh (.obj, .off, .ply, .stl), every face of which becomes a "
+                 "stack of cells; or a "
                  "lattice (.json, .ovm)",
          .is_required = true,
          .is_positional = true},
@@ -229,7 +230,7 @@ std::vector<Operation> lattice_operations() {
        "Subdivide a lattice, or a model as a Catmull-Clark surface",
        {{.name = "input",
          .type = Type::ModelOrLattice,
-         .help = "a lattice (.json, .ovm), or a model (.obj)",
+         .help = "a lattice (.json, .ovm), or a model (.obj, .off, .ply, .stl)",
          .is_required = true,
          .is_positional = true},
         {.name = "levels",

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "deform/embed/crossings.h"
 #include "deform/embed/embed.h"
 #include "deform/model/model.h"
 #include "lattice/subdivision/subdivision_lattice.h"
@@ -22,6 +23,14 @@ struct Pose {
   std::vector<glm::dvec3> points;  ///< #vertices, model units
 };
 
+/// Boundary faces of a lattice at which the model must join what stays: the first layers of control
+/// points there count as unmoved in every pose.
+struct Lock {
+  std::string option = "none";         ///< as with_lock() takes it
+  std::vector<std::int32_t> faces;     ///< ascending
+  std::vector<std::int32_t> controls;  ///< that count as unmoved, ascending
+};
+
 /// A model tied to a lattice at rest. It stands for these very values: an operation that replaces
 /// the model or the lattice drops it.
 struct BoundModel {
@@ -29,6 +38,8 @@ struct BoundModel {
   std::string outside;
   std::shared_ptr<const Volume> volume;
   std::shared_ptr<const Binding> binding;
+  std::shared_ptr<const Crossings> crossings = nullptr;  ///< none until they are asked for
+  Lock lock = {};
 };
 
 /// Copies are cheap: they share everything that did not change. Names are those of the files, or
@@ -38,6 +49,8 @@ struct Scene {
   std::map<std::string, std::shared_ptr<const SubdivisionLattice>> lattices;
   std::map<std::string, std::shared_ptr<const Pose>> poses;
   std::map<std::pair<std::string, std::string>, BoundModel> bound;  ///< by (model, lattice)
+  /// By model that a lattice deformed: how many faces it tore where they leave it; absent: none.
+  std::map<std::string, std::size_t> torn_faces;
 };
 
 /// The named object. Throw ParameterError if the scene has none of that name.

@@ -31,6 +31,30 @@ void check_faces(const CompressedRows<std::int32_t>& faces, std::size_t n_points
   }
 }
 
+/// Throws if no edge belongs to one face only.
+void check_open(const CompressedRows<std::int32_t>& faces) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+  for (std::size_t face = 0; face < faces.n_rows(); ++face) {
+    const auto loop = faces[face];
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      edges.push_back(std::minmax({loop[i], loop[(i + 1) % loop.size()]}));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0; i < edges.size();) {
+    const auto end =
+        std::upper_bound(edges.begin() + static_cast<std::ptrdiff_t>(i), edges.end(), edges[i]) -
+        edges.begin();
+    if (static_cast<std::size_t>(end) == i + 1) {
+      return;
+    }
+    i = static_cast<std::size_t>(end);
+  }
+  throw ParameterError(
+      "extrude: the mesh is closed, only an open surface can be extruded: draw the section of the "
+      "lattice, or cut the mesh open");
+}
+
 void check_steps(const CompressedRows<std::int32_t>& faces, const glm::dvec3& direction,
                  int layers) {
   if (layers < 1 || layers > kMostLayers) {
@@ -85,6 +109,7 @@ CellMesh extrude(std::span<const glm::dvec3> points, const CompressedRows<std::i
                  const glm::dvec3& direction, int layers) {
   check_faces(faces, points.size());
   check_steps(faces, direction, layers);
+  check_open(faces);
   std::int32_t n = 0;
   const std::vector<std::int32_t> number = number_used(points.size(), faces, n);
 

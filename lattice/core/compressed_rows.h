@@ -6,14 +6,27 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "lattice/core/error.h"
+
 namespace espalier {
 
+/// n as an offset of a row. Throws Error beyond 2^32 - 1.
+[[nodiscard]] inline std::uint32_t row_offset(std::size_t n) {
+  if (n > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error("a table of " + std::to_string(n) + " values is too large: it can hold " +
+                std::to_string(std::numeric_limits<std::uint32_t>::max()));
+  }
+  return static_cast<std::uint32_t>(n);
+}
+
 /// `n_rows()` rows of values, stored end to end. Rows that all have one length store no offsets.
-/// Offsets are 32 bit: at most 2^32 - 1 values.
+/// Offsets are 32 bit: what would make it hold more than 2^32 - 1 values throws Error.
 template <class T>
 class CompressedRows {
  public:
@@ -28,6 +41,7 @@ class CompressedRows {
   [[nodiscard]] static CompressedRows uniform(std::size_t width, std::vector<T> values) {
     assert(width > 0 && values.size() % width == 0);
     CompressedRows rows;
+    static_cast<void>(row_offset(values.size()));
     rows.width_ = static_cast<std::uint32_t>(width);
     rows.n_rows_ = values.size() / width;
     rows.values_ = std::move(values);
@@ -38,6 +52,7 @@ class CompressedRows {
   [[nodiscard]] static CompressedRows from_offsets(std::vector<std::uint32_t> offsets,
                                                    std::vector<T> values) {
     assert(!offsets.empty() && offsets.front() == 0 && offsets.back() == values.size());
+    static_cast<void>(row_offset(values.size()));
     CompressedRows rows;
     rows.n_rows_ = offsets.size() - 1;
     rows.values_ = std::move(values);
@@ -49,6 +64,7 @@ class CompressedRows {
 
   /// Appends a row.
   void push_back(std::span<const T> row) {
+    const std::uint32_t end = row_offset(values_.size() + row.size());
     if (n_rows_ == 0 && offsets_.empty()) {
       width_ = static_cast<std::uint32_t>(row.size());
     } else if (offsets_.empty() && row.size() != width_) {
@@ -60,7 +76,7 @@ class CompressedRows {
     values_.insert(values_.end(), row.begin(), row.end());
     ++n_rows_;
     if (!offsets_.empty()) {
-      offsets_.push_back(static_cast<std::uint32_t>(values_.size()));
+      offsets_.push_back(end);
     }
   }
 

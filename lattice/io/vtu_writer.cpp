@@ -177,22 +177,12 @@ void require_count(std::size_t n, std::size_t n_wanted, std::string_view what,
   }
 }
 
-/// Homogeneous coordinates: weighted points, and weights in all components.
-struct Homogeneous {
-  std::vector<glm::dvec3> points;
-  std::vector<glm::dvec3> weights;
-};
-
-Homogeneous homogeneous(std::span<const glm::dvec3> points, std::span<const double> weights) {
-  Homogeneous result;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+void require_positive(std::span<const double> weights) {
+  for (std::size_t i = 0; i < weights.size(); ++i) {
     if (!(weights[i] > 0)) {
       throw ParameterError(fmt::format("weight {} is {}, must be positive", i, weights[i]));
     }
-    result.points.push_back(weights[i] * points[i]);
-    result.weights.emplace_back(weights[i]);
   }
-  return result;
 }
 
 void append_hexahedron(Grid& grid, const Hexahedron& cell) {
@@ -281,36 +271,27 @@ std::vector<std::int32_t> vtk_point_order(const std::array<int, 3>& degree) {
 std::string vtu_text(const Volume& volume, std::span<const glm::dvec3> points,
                      std::span<const double> weights) {
   require_count(points.size(), volume.n_points(), "points", "volume");
-  const bool is_rational = !weights.empty();
-  Homogeneous weighted;
-  if (is_rational) {
+  if (weights.empty()) {
+    weights = volume.weights();
+  } else {
     require_count(weights.size(), volume.n_points(), "weights", "volume");
-    weighted = homogeneous(points, weights);
-    points = weighted.points;
+    require_positive(weights);
   }
   Grid grid;
   PointMerger merger(grid);
   BezierPatch patch;
-  BezierPatch patch_weights;
   std::array<int, 3> degree{};
   std::vector<std::int32_t> order;
   for (std::size_t i = 0; i < volume.n_patches(); ++i) {
-    volume.bezier(i, points, patch);
-    if (is_rational) {
-      volume.bezier(i, weighted.weights, patch_weights);
-    }
+    volume.bezier(i, points, weights, patch);
     if (patch.degree != degree) {
       degree = patch.degree;
       order = vtk_point_order(degree);
     }
     for (const std::int32_t place : order) {
-      const glm::dvec3& point = patch.points[static_cast<std::size_t>(place)];
-      if (is_rational) {
-        const double weight = patch_weights.points[static_cast<std::size_t>(place)].x;
-        grid.connectivity.push_back(merger.add(point / weight, weight));
-      } else {
-        grid.connectivity.push_back(merger.add(point, std::nullopt));
-      }
+      const auto at = static_cast<std::size_t>(place);
+      const auto weight = weights.empty() ? std::nullopt : std::optional(patch.weights[at]);
+      grid.connectivity.push_back(merger.add(patch.view().position(at), weight));
     }
     grid.offsets.push_back(static_cast<std::int64_t>(grid.connectivity.size()));
     grid.types.push_back(kVtkBezierHexahedron);

@@ -24,7 +24,7 @@ namespace espalier {
 
 /// A volume as Bézier hexahedra, one a patch in the same order, which VTK draws curved. points:
 /// #points, those of the volume at rest or posed, model units; weights: #points, positive, or empty
-/// for a volume that is not rational. Bézier points that coincide bit for bit are written once, so
+/// for the volume's own, if any. Bézier points that coincide bit for bit are written once, so
 /// neighbours hang together. Throws ParameterError for points or weights of another number, and for
 /// a weight that is not positive. O(#Bézier points).
 [[nodiscard]] std::string vtu_text(const Volume& volume, std::span<const glm::dvec3> points,

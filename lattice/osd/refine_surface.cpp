@@ -1,11 +1,12 @@
 #include "lattice/osd/refine_surface.h"
 
 #include <opensubdiv/far/primvarRefiner.h>
+#include <opensubdiv/far/stencilTableFactory.h>
 #include <opensubdiv/far/topologyDescriptor.h>
 #include <opensubdiv/far/topologyRefinerFactory.h>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <memory>
 #include <string>
 
@@ -48,15 +49,62 @@ void check(const CompressedRows<std::int32_t>& faces, int levels) {
   }
 }
 
-std::unique_ptr<Far::TopologyRefiner> make_refiner(int n_points, const std::vector<int>& sizes,
-                                                   const std::vector<int>& corners, int levels) {
+using BoundaryRule = Sdc::Options::VtxBoundaryInterpolation;
+
+/// The mesh of the points that faces use, as OpenSubdiv takes it.
+struct UsedMesh {
+  std::vector<std::int32_t> points;  ///< #used: the point each number stands for
+  std::vector<int> numbers;          ///< #points, -1: unused
+  std::vector<int> sizes;
+  std::vector<int> corners;
+};
+
+UsedMesh used_mesh(std::size_t n_points, const CompressedRows<std::int32_t>& faces) {
+  UsedMesh mesh;
+  mesh.numbers.assign(n_points, -1);
+  for (const std::int32_t point : faces.values()) {
+    mesh.numbers[static_cast<std::size_t>(point)] = 0;
+  }
+  for (std::size_t i = 0; i < n_points; ++i) {
+    if (mesh.numbers[i] == 0) {
+      mesh.numbers[i] = static_cast<int>(mesh.points.size());
+      mesh.points.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  for (std::size_t face = 0; face < faces.n_rows(); ++face) {
+    mesh.sizes.push_back(static_cast<int>(faces[face].size()));
+  }
+  for (const std::int32_t point : faces.values()) {
+    mesh.corners.push_back(mesh.numbers[static_cast<std::size_t>(point)]);
+  }
+  return mesh;
+}
+
+std::unique_ptr<Far::TopologyRefiner> make_refiner(const UsedMesh& mesh, const SurfaceTags& tags,
+                                                   BoundaryRule boundary, int levels) {
+  const auto number = [&](std::int32_t point) {
+    return mesh.numbers[static_cast<std::size_t>(point)];
+  };
+  std::vector<int> crease_ends;
+  for (const auto& [a, b] : tags.edges) {
+    crease_ends.insert(crease_ends.end(), {number(a), number(b)});
+  }
+  std::vector<int> corner_vertices;
+  std::transform(tags.vertices.begin(), tags.vertices.end(), std::back_inserter(corner_vertices),
+                 number);
   Far::TopologyDescriptor descriptor;
-  descriptor.numVertices = n_points;
-  descriptor.numFaces = static_cast<int>(sizes.size());
-  descriptor.numVertsPerFace = sizes.data();
-  descriptor.vertIndicesPerFace = corners.data();
+  descriptor.numVertices = static_cast<int>(mesh.points.size());
+  descriptor.numFaces = static_cast<int>(mesh.sizes.size());
+  descriptor.numVertsPerFace = mesh.sizes.data();
+  descriptor.vertIndicesPerFace = mesh.corners.data();
+  descriptor.numCreases = static_cast<int>(tags.edges.size());
+  descriptor.creaseVertexIndexPairs = crease_ends.data();
+  descriptor.creaseWeights = tags.edge_sharpness.data();
+  descriptor.numCorners = static_cast<int>(corner_vertices.size());
+  descriptor.cornerVertexIndices = corner_vertices.data();
+  descriptor.cornerWeights = tags.vertex_sharpness.data();
   Sdc::Options options;
-  options.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
+  options.SetVtxBoundaryInterpolation(boundary);
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
   std::unique_ptr<Far::TopologyRefiner> refiner(
       Factory::Create(descriptor, Factory::Options(Sdc::SCHEME_CATMARK, options)));
@@ -69,31 +117,40 @@ std::unique_ptr<Far::TopologyRefiner> make_refiner(int n_points, const std::vect
   return refiner;
 }
 
+CompressedRows<std::int32_t> faces_of(const Far::TopologyLevel& level) {
+  CompressedRows<std::int32_t> faces;
+  for (int face = 0; face < level.GetNumFaces(); ++face) {
+    const Far::ConstIndexArray loop = level.GetFaceVertices(face);
+    faces.push_back(std::span(loop.begin(), static_cast<std::size_t>(loop.size())));
+  }
+  return faces;
+}
+
+/// The face of level 0 that each face of a level lies in.
+std::vector<std::int32_t> root_faces(const Far::TopologyRefiner& refiner, int level) {
+  const Far::TopologyLevel& topology = refiner.GetLevel(level);
+  std::vector<std::int32_t> roots(static_cast<std::size_t>(topology.GetNumFaces()));
+  for (std::size_t face = 0; face < roots.size(); ++face) {
+    int root = static_cast<int>(face);
+    for (int at = level; at > 0; --at) {
+      root = refiner.GetLevel(at).GetFaceParentFace(root);
+    }
+    roots[face] = root;
+  }
+  return roots;
+}
+
 }  // namespace
 
 RefinedSurface refine_surface(std::span<const glm::dvec3> points,
                               const CompressedRows<std::int32_t>& faces, int levels) {
   check(faces, levels);
-  std::vector<int> number(points.size(), -1);
-  for (const std::int32_t point : faces.values()) {
-    number[static_cast<std::size_t>(point)] = 0;
-  }
+  const UsedMesh mesh = used_mesh(points.size(), faces);
   std::vector<SurfacePoint> level_points;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (number[i] == 0) {
-      number[i] = static_cast<int>(level_points.size());
-      level_points.push_back({points[i]});
-    }
+  for (const std::int32_t point : mesh.points) {
+    level_points.push_back({points[static_cast<std::size_t>(point)]});
   }
-  std::vector<int> sizes;
-  std::vector<int> corners;
-  for (std::size_t face = 0; face < faces.n_rows(); ++face) {
-    sizes.push_back(static_cast<int>(faces[face].size()));
-    for (const std::int32_t point : faces[face]) {
-      corners.push_back(number[static_cast<std::size_t>(point)]);
-    }
-  }
-  const auto refiner = make_refiner(static_cast<int>(level_points.size()), sizes, corners, levels);
+  const auto refiner = make_refiner(mesh, {}, Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER, levels);
   const Far::PrimvarRefinerReal<double> interpolator(*refiner);
   for (int level = 1; level <= levels; ++level) {
     std::vector<SurfacePoint> refined(
@@ -106,12 +163,32 @@ RefinedSurface refine_surface(std::span<const glm::dvec3> points,
   for (const SurfacePoint& point : level_points) {
     surface.points.push_back(point.at);
   }
-  const Far::TopologyLevel& last = refiner->GetLevel(levels);
-  for (int face = 0; face < last.GetNumFaces(); ++face) {
-    const Far::ConstIndexArray loop = last.GetFaceVertices(face);
-    surface.faces.push_back(std::span(loop.begin(), static_cast<std::size_t>(loop.size())));
-  }
+  surface.faces = faces_of(refiner->GetLevel(levels));
   return surface;
+}
+
+SurfaceRefinement surface_refinement(std::size_t n_points,
+                                     const CompressedRows<std::int32_t>& faces,
+                                     const SurfaceTags& tags, int levels) {
+  check(faces, levels);
+  const UsedMesh mesh = used_mesh(n_points, faces);
+  const auto refiner = make_refiner(mesh, tags, Sdc::Options::VTX_BOUNDARY_EDGE_ONLY, levels);
+  using Factory = Far::StencilTableFactoryReal<double>;
+  Factory::Options options;
+  options.generateOffsets = true;
+  options.generateIntermediateLevels = false;
+  const std::unique_ptr<const Far::StencilTableReal<double>> stencils(
+      Factory::Create(*refiner, options));
+  const auto fill = [&](std::size_t i, StencilRow& row) {
+    const auto begin = static_cast<std::size_t>(stencils->GetOffsets()[i]);
+    const auto end = begin + static_cast<std::size_t>(stencils->GetSizes()[i]);
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto number = static_cast<std::size_t>(stencils->GetControlIndices()[k]);
+      row.add(mesh.points[number], stencils->GetWeights()[k]);
+    }
+  };
+  return {StencilTable::build(stencils->GetOffsets().size(), n_points, fill),
+          faces_of(refiner->GetLevel(levels)), root_faces(*refiner, levels)};
 }
 
 }  // namespace espalier::osd

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -17,8 +18,12 @@
 namespace espalier {
 namespace {
 
-/// What a leaf's map misses of the true one in a cell of size 1, before any isolation.
+/// What a leaf's map misses of the true one in a cell of size 1, before any refinement: as measured
+/// on lines and at nodes of hexahedra, at creases of finite sharpness, in pyramids.
 constexpr double kLeafError = 0.1;
+constexpr double kCreaseLeafError = 0.4;
+constexpr double kPyramidLeafError = 1;
+constexpr double kRefinementRate = 0.25;
 constexpr int kMostIsolations = 60;
 
 /// How a surface's error at a leaf falls a level: the square of the subdominant eigenvalue of
@@ -29,8 +34,8 @@ double isolation_rate(double n) {
   return eigenvalue * eigenvalue;
 }
 
-int levels_for(double tolerance, double rate, int most) {
-  const double levels = std::ceil(std::log(tolerance / kLeafError) / std::log(rate));
+int levels_for(double tolerance, double leaf_error, double rate, int most) {
+  const double levels = std::ceil(std::log(tolerance / leaf_error) / std::log(rate));
   return std::clamp(static_cast<int>(levels), 1, most);
 }
 
@@ -79,6 +84,21 @@ class LevelFreezer {
     }
   }
 
+  /// The largest error of the leaves that cells would be without further refinement, at size 1.
+  [[nodiscard]] double leaf_error(std::span<const CellId> cells) const {
+    double largest = kLeafError;
+    for (const CellId cell : cells) {
+      if (!hexahedra_.is_hexahedron(cell)) {
+        return kPyramidLeafError;
+      }
+      if (std::ranges::any_of(complex_.vertices(cell),
+                              [&](VertexId vertex) { return is_at_crease(vertex); })) {
+        largest = kCreaseLeafError;
+      }
+    }
+    return largest;
+  }
+
   /// Freezes what refinement has left.
   void freeze_leaf(CellId cell) {
     if (hexahedra_.is_hexahedron(cell)) {
@@ -89,6 +109,16 @@ class LevelFreezer {
   }
 
  private:
+  /// Whether the vertex or an edge there has a finite sharpness.
+  [[nodiscard]] bool is_at_crease(VertexId vertex) const {
+    const auto is_finite = [](float sharpness) {
+      return sharpness > 0 && sharpness < kInfiniteSharpness;
+    };
+    return is_finite(sharpness_.vertices[vertex]) ||
+           std::ranges::any_of(complex_.edges(vertex),
+                               [&](EdgeId edge) { return is_finite(sharpness_.edges[edge]); });
+  }
+
   [[nodiscard]] std::uint8_t boundary_faces(const Frame& frame) const {
     unsigned bits = 0;
     for (int face = 0; face < 6; ++face) {
@@ -200,7 +230,8 @@ class LevelFreezer {
       const auto n = static_cast<double>(complex_.n_cells(along));
       // A boundary corner with n faces behaves like an inner one with 2n.
       const double valence = complex_.is_boundary(along) ? 2 * n : n;
-      stack.levels[i] = levels_for(options_.tolerance, isolation_rate(valence), kMostIsolations);
+      stack.levels[i] =
+          levels_for(options_.tolerance, kLeafError, isolation_rate(valence), kMostIsolations);
     }
     return stack;
   }
@@ -312,12 +343,8 @@ class LevelFreezer {
 
   void add_pyramids(CellId cell) {
     const std::uint16_t linear = volume_.extraction(bezier_extraction(1));
-    VertexCombination centroid;
-    const auto vertices = complex_.vertices(cell);
-    for (const VertexId vertex : vertices) {
-      centroid.emplace_back(vertex, 1.0 / static_cast<double>(vertices.size()));
-    }
-    const std::int32_t apex = volume_.add_point(std::move(centroid));
+    const std::int32_t apex =
+        volume_.add_point(limit_of_cell_point(complex_, sharpness_, scheme_, cell));
     for (const HalfFaceId base : complex_.half_faces(cell)) {
       const std::vector<VertexId> corners = loop(complex_, base);
       Patch patch{{linear, linear, linear}, 0, true, true};
@@ -375,7 +402,7 @@ void check(const AdaptiveOptions& options) {
 Volume freeze_adaptive(const SubdivisionLattice& lattice, const AdaptiveOptions& options,
                        const Progress& progress) {
   check(options);
-  const int n_levels = levels_for(options.tolerance, 0.25, options.most_levels);
+  int n_levels = options.most_levels;
   VolumeBuilder volume;
   auto complex = lattice.complex;
   Sharpness sharpness = with_touching_elements(*complex, lattice.sharpness);
@@ -393,11 +420,17 @@ Volume freeze_adaptive(const SubdivisionLattice& lattice, const AdaptiveOptions&
       if (freezer.freeze_exactly(cell)) {
         continue;
       }
-      if (level == n_levels) {
+      rest.push_back(cell);
+    }
+    if (level == 1) {  // from here on cells are of the same kinds at all levels
+      n_levels = levels_for(options.tolerance, freezer.leaf_error(rest), kRefinementRate,
+                            options.most_levels);
+    }
+    if (level == n_levels) {
+      for (const CellId cell : rest) {
         freezer.freeze_leaf(cell);
-      } else {
-        rest.push_back(cell);
       }
+      break;
     }
     if (rest.empty()) {
       break;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "lattice/osd/crease_masks.h"
 #include "lattice/subdivision/refine.h"
+#include "lattice/subdivision/sub_complex.h"
 
 namespace espalier {
 namespace {
@@ -35,6 +37,9 @@ std::optional<VertexCombination> on_boundary(const CellComplex& complex, const S
   std::vector<FaceId> faces;
   for (const FaceId face : complex.faces(vertex)) {
     if (complex.is_boundary(face)) {
+      if (complex.vertices(face).size() != 4) {
+        return std::nullopt;
+      }
       faces.push_back(face);
     }
   }
@@ -112,27 +117,132 @@ std::array<EdgeId, 2> any_line(const CellComplex& complex, VertexId vertex) {
   return {edges[0], edges[0]};
 }
 
+/// The place of a vertex of the larger complex in a part of it.
+VertexId within(const SubComplex& part, VertexId vertex) {
+  const auto found = std::lower_bound(part.vertices.begin(), part.vertices.end(), vertex);
+  return VertexId{static_cast<std::int32_t>(found - part.vertices.begin())};
+}
+
+/// A combination of refined vertices as one of the vertices they come from: of the part's, numbered
+/// in the larger complex.
+VertexCombination pulled_back(const VertexCombination& refined, const StencilTable& stencils,
+                              const SubComplex& part) {
+  std::vector<double> weights(part.vertices.size(), 0.0);
+  for (const auto& [vertex, weight] : refined) {
+    const StencilTable::Row row = stencils[vertex.index()];
+    for (std::size_t k = 0; k < row.indices.size(); ++k) {
+      weights[static_cast<std::size_t>(row.indices[k])] += weight * row.weights[k];
+    }
+  }
+  VertexCombination result;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (weights[i] != 0) {
+      result.emplace_back(part.vertices[i], weights[i]);
+    }
+  }
+  return result;
+}
+
+/// For each vertex of a ring that is alike at all levels, the vertex that stands for it after a
+/// refinement: vertex, edge, face and cell points at the centre.
+std::vector<VertexId> next_ring(const CellComplex& ring, const ParentMap& parents,
+                                VertexId centre) {
+  std::vector<VertexId> next(ring.n_vertices());
+  next[centre.index()] = parents.vertex_point(centre);
+  for (const EdgeId edge : ring.edges(centre)) {
+    next[ring.other_end(edge, centre).index()] = parents.edge_point(edge);
+  }
+  for (const FaceId face : ring.faces(centre)) {
+    next[opposite(ring, face, centre).index()] = parents.face_point(face);
+  }
+  for (const CellId cell : ring.cells(centre)) {
+    for (const VertexId vertex : ring.vertices(cell)) {
+      if (next[vertex.index()] == VertexId{}) {  // neither an edge nor a face leads there
+        next[vertex.index()] = parents.cell_point(cell);
+      }
+    }
+  }
+  return next;
+}
+
+/// The left eigenvector of eigenvalue 1 of the matrix whose rows are some rows of a table, scaled
+/// to the sum 1: by multiplying from the left until nothing changes. The next eigenvalue is at
+/// most about 0.7.
+VertexCombination left_eigenvector(const StencilTable& table, const std::vector<VertexId>& rows,
+                                   VertexId start) {
+  constexpr int kMostSteps = 400;
+  constexpr double kSmall = 1e-17;
+  std::vector<double> weights(rows.size(), 0.0);
+  weights[start.index()] = 1;
+  double change = 1;
+  for (int step = 0; step < kMostSteps && change > kSmall; ++step) {
+    std::vector<double> next(rows.size(), 0.0);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const StencilTable::Row row = table[rows[i].index()];
+      for (std::size_t k = 0; k < row.indices.size(); ++k) {
+        next[static_cast<std::size_t>(row.indices[k])] += weights[i] * row.weights[k];
+      }
+    }
+    change = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      change = std::max(change, std::abs(next[i] - weights[i]));
+    }
+    weights = std::move(next);
+  }
+  VertexCombination result;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    result.emplace_back(VertexId{static_cast<std::int32_t>(i)}, weights[i]);
+  }
+  return result;
+}
+
+/// An inner vertex of any kind. After one refinement its ring is alike at all levels.
+VertexCombination at_node(const CellComplex& complex, const Sharpness& sharpness, Scheme scheme,
+                          VertexId vertex) {
+  const SubComplex around = cut_out(complex, sharpness, complex.cells(vertex));
+  const Refinement first = refine(around.complex, around.sharpness, scheme);
+  const VertexId centre = first.parents.vertex_point(within(around, vertex));
+  const SubComplex ring = cut_out(*first.complex, first.sharpness, first.complex->cells(centre));
+  const VertexId ring_centre = within(ring, centre);
+  const Refinement second = refine(ring.complex, ring.sharpness, scheme);
+  VertexCombination limit = left_eigenvector(
+      second.stencils, next_ring(ring.complex, second.parents, ring_centre), ring_centre);
+  for (auto& [refined, weight] : limit) {
+    refined = ring.vertices[refined.index()];
+  }
+  return pulled_back(limit, first.stencils, around);
+}
+
 }  // namespace
 
 std::optional<VertexCombination> limit_position(const Hexahedra& hexahedra,
                                                 const Sharpness& sharpness, Scheme scheme,
                                                 VertexId vertex) {
   const CellComplex& complex = hexahedra.complex();
-  if (!has_hexahedra_only(hexahedra, vertex)) {
-    return std::nullopt;
-  }
   if (complex.is_boundary(vertex)) {
     return on_boundary(complex, sharpness, vertex);
   }
-  if (is_regular_inside(complex, vertex)) {
-    return on_line(hexahedra, vertex, any_line(complex, vertex));
-  }
-  if (scheme == Scheme::CatmullClark) {
-    if (const auto line = line_edges(complex, vertex)) {
-      return on_line(hexahedra, vertex, *line);
+  if (has_hexahedra_only(hexahedra, vertex)) {
+    if (is_regular_inside(complex, vertex)) {
+      return on_line(hexahedra, vertex, any_line(complex, vertex));
+    }
+    if (scheme == Scheme::CatmullClark) {
+      if (const auto line = line_edges(complex, vertex)) {
+        return on_line(hexahedra, vertex, *line);
+      }
     }
   }
-  return std::nullopt;
+  return at_node(complex, sharpness, scheme, vertex);
+}
+
+VertexCombination limit_of_cell_point(const CellComplex& complex, const Sharpness& sharpness,
+                                      Scheme scheme, CellId cell) {
+  const std::vector<CellId> around = with_neighbours(complex, std::array{cell});
+  const SubComplex part = cut_out(complex, sharpness, around);
+  const Refinement refinement = refine(part.complex, part.sharpness, scheme);
+  const VertexId point = refinement.parents.cell_point(CellId{0});
+  return pulled_back(at_node(*refinement.complex, refinement.sharpness, scheme, point),
+                     refinement.stencils, part);
 }
 
 }  // namespace espalier

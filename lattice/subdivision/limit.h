@@ -15,10 +15,18 @@ namespace espalier {
 /// A point as a combination of vertices of one complex.
 using VertexCombination = std::vector<std::pair<VertexId, double>>;
 
-/// The limit position of a vertex with hexahedra round it: regular and line vertices inside, all
-/// boundary vertices whose sharpness is 0 or infinite. Nothing at nodes and elsewhere.
+/// The limit position of a vertex: in closed form at regular and line vertices inside and at all
+/// boundary vertices whose sharpness is 0 or infinite; at nodes inside, and where other cells than
+/// hexahedra meet, from the left eigenvector of the one-ring's refinement matrix. Nothing at
+/// fractional creases, nor on the boundary at faces that are not quadrilaterals. The sharpness must
+/// count what touches. O(1), but a thousand times slower in the last case.
 [[nodiscard]] std::optional<VertexCombination> limit_position(const Hexahedra& hexahedra,
                                                               const Sharpness& sharpness,
                                                               Scheme scheme, VertexId vertex);
+
+/// The limit position of the point that refinement puts into a cell.
+[[nodiscard]] VertexCombination limit_of_cell_point(const CellComplex& complex,
+                                                    const Sharpness& sharpness, Scheme scheme,
+                                                    CellId cell);
 
 }  // namespace espalier

@@ -234,7 +234,7 @@ void CellComplex::build_upward_incidences() {
                                         n_edges(), n);
     }
   };
-  parallel_for(3, transpose_one, 1);
+  parallel_for(3, transpose_one, n_edges() < 4096 ? 3 : 1);
 }
 
 void CellComplex::build_radial_order() {

@@ -67,8 +67,13 @@ void CellSurface::load(CellId cell) {
     centroid_ += point;
   }
   centroid_ /= static_cast<double>(vertices_.size());
+  has_hull_ = false;
+}
+
+void CellSurface::make_hull() {
   hull_.clear();
-  const auto half_faces = complex_.half_faces(cell);
+  has_hull_ = true;
+  const auto half_faces = complex_.half_faces(cell_);
   for (std::size_t i = 0; i < std::min(half_faces.size(), kMostHalfSpaces); ++i) {
     gather_loop(half_faces[i].face());
     const glm::dvec3 area = half_faces[i].side() == 0 ? area_vector(loop_) : -area_vector(loop_);
@@ -116,7 +121,10 @@ bool CellSurface::is_off_border(const glm::dvec3& point, FaceId face, double dis
   return true;
 }
 
-bool CellSurface::is_beyond(std::span<const glm::dvec3> points, double depth) const {
+bool CellSurface::is_beyond(std::span<const glm::dvec3> points, double depth) {
+  if (!has_hull_) {
+    make_hull();
+  }
   return std::any_of(hull_.begin(), hull_.end(), [&](const HalfSpace& half_space) {
     return std::all_of(points.begin(), points.end(), [&](const glm::dvec3& point) {
       return glm::dot(half_space.normal, point) >= half_space.last - depth;

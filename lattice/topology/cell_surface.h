@@ -28,7 +28,7 @@ class CellSurface {
   CellSurface(const CellComplex& complex, std::span<const glm::dvec3> points, double tolerance)
       : complex_(complex), points_(points), tolerance_(tolerance) {}
 
-  /// Loads vertices and hull; the triangles wait until they are asked for.
+  /// Loads the vertices; hull and triangles wait until they are asked for.
   void load(CellId cell);
 
   [[nodiscard]] CellId cell() const { return cell_; }
@@ -42,7 +42,7 @@ class CellSurface {
   [[nodiscard]] bool is_off_border(const glm::dvec3& point, FaceId face, double distance) const;
 
   /// Whether one plane of the hull has all of some points outside or, at most, `depth` inside.
-  [[nodiscard]] bool is_beyond(std::span<const glm::dvec3> points, double depth) const;
+  [[nodiscard]] bool is_beyond(std::span<const glm::dvec3> points, double depth);
   /// Winding number of the surface round a point: 1 inside, 0 outside.
   [[nodiscard]] double winding(const glm::dvec3& point);
 
@@ -53,6 +53,7 @@ class CellSurface {
     double last;
   };
   void gather_loop(FaceId face);
+  void make_hull();
 
   const CellComplex& complex_;
   std::span<const glm::dvec3> points_;
@@ -62,6 +63,7 @@ class CellSurface {
   glm::dvec3 centroid_{};
   std::vector<glm::dvec3> vertices_;
   std::vector<HalfSpace> hull_;
+  bool has_hull_ = false;
   std::vector<SurfaceTriangle> triangles_;  // empty: not yet made
   std::vector<glm::dvec3> loop_;
   std::vector<Triangle> face_triangles_;

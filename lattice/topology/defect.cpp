@@ -23,7 +23,9 @@ void throw_if_defective(const std::vector<Defect>& defects) {
   }
   std::string message = "invalid lattice: " + defects.front().message;
   if (defects.size() > 1) {
-    message += " (and " + std::to_string(defects.size() - 1) + " more defects)";
+    const std::size_t n_more = defects.size() - 1;
+    message +=
+        " (and " + std::to_string(n_more) + (n_more == 1 ? " more defect)" : " more defects)");
   }
   throw LatticeError(message);
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -29,14 +30,16 @@ inline Defect make_edge_defect(DefectKind kind, std::int32_t a, std::int32_t b,
   return {kind, "edge", -1, fmt::format("edge {}-{}: {}", a, b, what)};
 }
 
-/// Appends what `check` finds in n elements, in element order whatever the number of threads;
-/// check(i) returns an optional defect, or a vector of them.
-template <class Check>
-void collect_defects(std::size_t n, const Check& check, std::vector<Defect>& defects,
-                     std::size_t grain = 4096) {
+/// Appends what checks find in n elements, in element order whatever the number of threads.
+/// make_check() gives a check for some of them, with memory of its own; check(i) returns an
+/// optional defect, or a vector of them.
+template <class MakeCheck>
+void collect_defects_with(std::size_t n, const MakeCheck& make_check, std::vector<Defect>& defects,
+                          std::size_t grain = 4096) {
   std::vector<std::vector<Defect>> found((n + grain - 1) / grain);
   parallel_ranges(n, grain, [&](std::size_t begin, std::size_t end) {
     std::vector<Defect>& here = found[begin / grain];
+    auto check = make_check();
     for (std::size_t i = begin; i < end; ++i) {
       auto some = check(i);
       if constexpr (requires { some.has_value(); }) {
@@ -51,6 +54,14 @@ void collect_defects(std::size_t n, const Check& check, std::vector<Defect>& def
   for (std::vector<Defect>& some : found) {
     std::move(some.begin(), some.end(), std::back_inserter(defects));
   }
+}
+
+/// The same with one check that needs no memory.
+template <class Check>
+void collect_defects(std::size_t n, const Check& check, std::vector<Defect>& defects,
+                     std::size_t grain = 4096) {
+  collect_defects_with(
+      n, [&check] { return std::cref(check); }, defects, grain);
 }
 
 }  // namespace espalier

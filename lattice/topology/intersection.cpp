@@ -31,7 +31,7 @@ class PairTest {
 
   bool overlaps(CellId other) {
     b_.load(other);
-    if (are_apart_along(b_.centroid() - a_.centroid()) || a_.is_beyond(b_.vertices(), tolerance_) ||
+    if (are_apart() || a_.is_beyond(b_.vertices(), tolerance_) ||
         b_.is_beyond(a_.vertices(), tolerance_)) {
       return false;
     }
@@ -42,23 +42,64 @@ class PairTest {
   }
 
  private:
-  /// Whether a's vertices all come before b's along an axis.
-  [[nodiscard]] bool are_apart_along(const glm::dvec3& axis) const {
-    double last_of_a = -std::numeric_limits<double>::infinity();
-    double first_of_b = std::numeric_limits<double>::infinity();
+  /// The vertices of the two cells that are farthest from being apart along an axis.
+  struct Extremes {
+    glm::dvec3 last_of_a;
+    glm::dvec3 first_of_b;
+  };
+
+  [[nodiscard]] Extremes extremes_along(const glm::dvec3& axis) const {
+    const auto at = [&](const glm::dvec3& vertex) { return glm::dot(axis, vertex); };
+    return {*std::ranges::max_element(a_.vertices(), {}, at),
+            *std::ranges::min_element(b_.vertices(), {}, at)};
+  }
+
+  /// Whether a plane with all of a on one side and all of b on the other is found: first the one
+  /// across the line between their centroids; then each is turned so that the two vertices that are
+  /// worst pass. All turns keep the plane on an edge that the cells share.
+  [[nodiscard]] bool are_apart() const {
+    constexpr int kMostTurns = 12;
+    constexpr double kOverturn = 1.5;  // so that there is an end where a whole cone of axes serves
+    const glm::dvec3 shared = shared_edge();
+    const auto off_edge = [&](const glm::dvec3& x) { return x - glm::dot(x, shared) * shared; };
+    glm::dvec3 axis = off_edge(b_.centroid() - a_.centroid());
+    for (int turn = 0; turn < kMostTurns; ++turn) {
+      const double length = glm::length(axis);
+      if (!(length > 0)) {
+        return false;
+      }
+      axis /= length;
+      const auto [last_of_a, first_of_b] = extremes_along(axis);
+      const glm::dvec3 between = first_of_b - last_of_a;
+      const double gap = glm::dot(axis, between);
+      if (gap >= -tolerance_) {
+        return true;
+      }
+      const glm::dvec3 turned = off_edge(between);
+      axis -= kOverturn * gap / glm::dot(turned, turned) * turned;
+    }
+    return false;
+  }
+
+  /// The direction of the line through two vertices that both cells have; zero if they have one in
+  /// common, or none.
+  [[nodiscard]] glm::dvec3 shared_edge() const {
+    const glm::dvec3* first = nullptr;
     for (const glm::dvec3& vertex : a_.vertices()) {
-      last_of_a = std::max(last_of_a, glm::dot(axis, vertex));
+      if (std::ranges::find(b_.vertices(), vertex) == b_.vertices().end()) {
+        continue;
+      }
+      if (first != nullptr && vertex != *first) {
+        return glm::normalize(vertex - *first);
+      }
+      first = &vertex;
     }
-    for (const glm::dvec3& vertex : b_.vertices()) {
-      first_of_b = std::min(first_of_b, glm::dot(axis, vertex));
-    }
-    const double length = glm::length(axis);
-    return length > 0 && last_of_a <= first_of_b + tolerance_ * length;
+    return glm::dvec3(0);
   }
 
   /// The triangles of a cell that the other's hull does not exclude, those flush with it among
   /// them, sorted along x.
-  static void collect_near(CellSurface& cell, const CellSurface& other, double tolerance,
+  static void collect_near(CellSurface& cell, CellSurface& other, double tolerance,
                            std::vector<const SurfaceTriangle*>& near) {
     near.clear();
     for (const SurfaceTriangle& triangle : cell.triangles()) {
@@ -199,10 +240,9 @@ std::vector<Defect> find_intersecting_cells(const CellComplex& complex,
                                             const IdVector<CellId, bool>& is_sound,
                                             double tolerance, const Progress& progress) {
   const BoxTree tree(cell_boxes(complex, points, is_sound));
-  const auto check_cell = [&](std::size_t i) {
+  const auto id = [](std::size_t cell) { return CellId{static_cast<std::int32_t>(cell)}; };
+  const auto check_cell = [&](std::size_t i, PairTest& test) {
     std::vector<std::size_t> partners;
-    PairTest test(complex, points, tolerance);
-    const auto id = [](std::size_t cell) { return CellId{static_cast<std::int32_t>(cell)}; };
     if (is_sound[id(i)]) {
       test.set_cell(id(i));
       tree.visit_overlapping(tree.box(i).grown(-tolerance), [&](std::size_t j) {
@@ -227,8 +267,12 @@ std::vector<Defect> find_intersecting_cells(const CellComplex& complex,
                     static_cast<double>(begin) / static_cast<double>(complex.n_cells()));
     const std::size_t n = std::min(kBlock, complex.n_cells() - begin);
     constexpr std::size_t kGrain = 256;
-    collect_defects(
-        n, [&](std::size_t i) { return check_cell(begin + i); }, defects, kGrain);
+    const auto make_check = [&] {
+      return [&, test = PairTest(complex, points, tolerance)](std::size_t i) mutable {
+        return check_cell(begin + i, test);
+      };
+    };
+    collect_defects_with(n, make_check, defects, kGrain);
   }
   return defects;
 }

@@ -69,6 +69,14 @@ struct EdgeUse {
   bool is_ascending;
 };
 
+/// What checking a cell takes; kept from cell to cell.
+struct CellMemory {
+  std::vector<std::int32_t> faces;
+  std::vector<std::int32_t> vertices;
+  std::vector<std::uint32_t> parents;
+  std::vector<EdgeUse> uses;
+};
+
 void collect_edge_uses(const Polyhedra& polyhedra, std::size_t cell, std::vector<EdgeUse>& uses) {
   uses.clear();
   const Row half_faces = polyhedra.cells[cell];
@@ -101,9 +109,11 @@ std::size_t find_root(std::vector<std::uint32_t>& parent, std::size_t i) {
 
 /// Whether a closed shell is one sphere: its faces hang together by edges, and V − E + F = 2. A
 /// handle or a vertex where the shell touches itself lowers that number.
-bool is_sphere(const Polyhedra& polyhedra, std::size_t cell, const std::vector<EdgeUse>& uses) {
+bool is_sphere(const Polyhedra& polyhedra, std::size_t cell, CellMemory& memory) {
   const Row half_faces = polyhedra.cells[cell];
-  std::vector<std::uint32_t> parent(half_faces.size());
+  const std::vector<EdgeUse>& uses = memory.uses;
+  std::vector<std::uint32_t>& parent = memory.parents;
+  parent.resize(half_faces.size());
   std::iota(parent.begin(), parent.end(), 0u);
   std::size_t n_shells = half_faces.size();
   for (std::size_t i = 0; i + 1 < uses.size(); i += 2) {
@@ -114,7 +124,8 @@ bool is_sphere(const Polyhedra& polyhedra, std::size_t cell, const std::vector<E
       --n_shells;
     }
   }
-  std::vector<std::int32_t> vertices;
+  std::vector<std::int32_t>& vertices = memory.vertices;
+  vertices.clear();
   for (const std::int32_t half_face : half_faces) {
     const Row loop = polyhedra.faces[static_cast<std::size_t>(half_face >> 1)];
     vertices.insert(vertices.end(), loop.begin(), loop.end());
@@ -126,9 +137,10 @@ bool is_sphere(const Polyhedra& polyhedra, std::size_t cell, const std::vector<E
   return n_shells == 1 && n_vertices - n_edges + n_faces == 2;
 }
 
-std::optional<Defect> check_cell(const Polyhedra& polyhedra, std::size_t cell) {
+std::optional<Defect> check_cell(const Polyhedra& polyhedra, std::size_t cell, CellMemory& memory) {
   const Row half_faces = polyhedra.cells[cell];
-  std::vector<std::int32_t> faces(half_faces.size());
+  std::vector<std::int32_t>& faces = memory.faces;
+  faces.resize(half_faces.size());
   std::transform(half_faces.begin(), half_faces.end(), faces.begin(), [](int h) { return h >> 1; });
   std::sort(faces.begin(), faces.end());
   if (const auto twice = std::adjacent_find(faces.begin(), faces.end()); twice != faces.end()) {
@@ -139,7 +151,7 @@ std::optional<Defect> check_cell(const Polyhedra& polyhedra, std::size_t cell) {
     return make_defect(DefectKind::CellTooSmall, "cell", cell,
                        fmt::format("has {} faces, needs four or more", half_faces.size()));
   }
-  std::vector<EdgeUse> uses;
+  std::vector<EdgeUse>& uses = memory.uses;
   collect_edge_uses(polyhedra, cell, uses);
   for (std::size_t i = 0; i < uses.size();) {
     std::size_t end = i + 1;
@@ -158,7 +170,7 @@ std::optional<Defect> check_cell(const Polyhedra& polyhedra, std::size_t cell) {
     }
     i = end;
   }
-  if (!is_sphere(polyhedra, cell, uses)) {
+  if (!is_sphere(polyhedra, cell, memory)) {
     return make_defect(DefectKind::CellNotSphere, "cell", cell,
                        "its faces do not form one shell like a sphere's");
   }
@@ -267,13 +279,16 @@ std::vector<Defect> find_structural_defects(const Polyhedra& polyhedra) {
   collect_defects(
       n_faces, [&](std::size_t i) { return check_face(polyhedra, i); }, defects);
   check_duplicate_faces(polyhedra, defects);
-  check_unused_vertices(polyhedra, defects);
-  if (!defects.empty()) {
-    return defects;
+  if (defects.empty()) {
+    const auto make_check = [&polyhedra] {
+      return [&polyhedra, memory = CellMemory()](std::size_t i) mutable {
+        return check_cell(polyhedra, i, memory);
+      };
+    };
+    collect_defects_with(n_cells, make_check, defects);
+    check_face_uses(polyhedra, defects);
   }
-  collect_defects(
-      n_cells, [&](std::size_t i) { return check_cell(polyhedra, i); }, defects);
-  check_face_uses(polyhedra, defects);
+  check_unused_vertices(polyhedra, defects);
   return defects;
 }
 

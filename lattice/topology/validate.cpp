@@ -125,13 +125,21 @@ std::vector<Defect> find_geometric_defects(const CellComplex& complex,
 
 std::vector<Defect> validate(const Polyhedra& polyhedra, std::span<const glm::dvec3> points,
                              const Progress& progress) {
+  if (points.size() != static_cast<std::size_t>(polyhedra.n_vertices)) {
+    throw ParameterError(
+        fmt::format("validate: {} points for {} vertices", points.size(), polyhedra.n_vertices));
+  }
   std::vector<Defect> defects = find_structural_defects(polyhedra);
-  if (!defects.empty()) {
+  const auto leaves_a_complex = [](const Defect& defect) {
+    return defect.kind == DefectKind::UnusedVertex;
+  };
+  if (!std::all_of(defects.begin(), defects.end(), leaves_a_complex)) {
     return defects;
   }
-  const CellComplex complex(polyhedra);
-  defects = find_edge_defects(complex);
-  append(defects, find_geometric_defects(complex, points, progress));
+  const CellComplex complex = CellComplex::from_valid(polyhedra);
+  append(defects, find_edge_defects(complex));
+  // The complex ends at its last vertex in use.
+  append(defects, find_geometric_defects(complex, points.first(complex.n_vertices()), progress));
   return defects;
 }
 

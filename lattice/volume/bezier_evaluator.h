@@ -213,6 +213,9 @@ auto with_evaluator(const BezierView& patch, const Use& use) {
         break;
     }
   }
+  if (p == 1 && q == 1 && r == 3) {  // the leaves of lines
+    return use(BezierEvaluator(FixedDegree<1, 1, 3>{}, patch));
+  }
   return use(BezierEvaluator(AnyDegree{p, q, r}, patch));
 }
 

@@ -12,6 +12,7 @@
 
 #include "lattice/volume/bernstein_lines.h"
 #include "lattice/volume/bezier_evaluator.h"
+#include "lattice/volume/patch_frame.h"
 
 namespace espalier {
 namespace {
@@ -36,43 +37,6 @@ std::optional<glm::dvec3> solve(const glm::dmat3& J, const glm::dvec3& r) {
 
 double largest(const glm::dvec3& v) {
   return std::max({v.x, v.y, v.z});
-}
-
-/// The least-squares affine map of the corners: centre and axes.
-struct AffineMap {
-  glm::dvec3 centre;
-  glm::dmat3 axes;
-};
-
-AffineMap affine_map(const BezierView& patch) {
-  const auto [p, q, r] = patch.degree;
-  const auto corner = [&, p = p, q = q, r = r](int i, int j, int k) -> const glm::dvec3& {
-    return patch.points[static_cast<std::size_t>(i * p + (p + 1) * (j * q + (q + 1) * k * r))];
-  };
-  const std::array<glm::dvec3, 2> low = {corner(0, 0, 0) + corner(0, 1, 0),
-                                         corner(0, 0, 1) + corner(0, 1, 1)};
-  const std::array<glm::dvec3, 2> high = {corner(1, 0, 0) + corner(1, 1, 0),
-                                          corner(1, 0, 1) + corner(1, 1, 1)};
-  const glm::dvec3 front = corner(0, 0, 0) + corner(1, 0, 0) + corner(0, 0, 1) + corner(1, 0, 1);
-  const glm::dvec3 sum = low[0] + low[1] + high[0] + high[1];
-  return {sum / 8.0,
-          {(high[0] + high[1] - low[0] - low[1]) / 4.0, (sum - 2.0 * front) / 4.0,
-           (high[1] + low[1] - high[0] - low[0]) / 4.0}};
-}
-
-/// Where the affine map of the corners takes the value x; a pyramid's section shrinks with 1 − w.
-glm::dvec3 guess(const BezierView& patch, const glm::dvec3& x) {
-  const AffineMap affine = affine_map(patch);
-  auto offset = solve(affine.axes, x - affine.centre);
-  if (!offset) {
-    return glm::dvec3(0.5);
-  }
-  if (patch.is_pyramid) {
-    const double factor = 2 * std::max(0.5 - offset->z, 1e-6);
-    offset->x /= factor;
-    offset->y /= factor;
-  }
-  return *offset + 0.5;
 }
 
 /// The cube grown by a margin; a pyramid ends at its apex.
@@ -299,7 +263,8 @@ class Search {
   }
 
   bool try_newton(const Part& part, std::size_t depth) {
-    const glm::dvec3 within = glm::clamp(guess(view(part), x_), glm::dvec3(0), glm::dvec3(1));
+    const glm::dvec3 within =
+        glm::clamp(PatchFrame(view(part)).guess(x_), glm::dvec3(0), glm::dvec3(1));
     const Preimage found = newton(patch_, x_, part.low + within * (part.high - part.low), 0);
     if (!std::isfinite(found.residual)) {
       return false;
@@ -320,15 +285,44 @@ class Search {
   int n_parts_ = 0;
 };
 
+/// A rational patch N / W takes the value x where the polynomial N − x W takes the value 0.
+BezierPatch relative_to(const BezierView& patch, const glm::dvec3& x) {
+  BezierPatch result{patch.degree, {patch.points.begin(), patch.points.end()}};
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    result.points[i] -= patch.weights[i] * x;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::optional<Preimage> invert(const BezierView& patch, const glm::dvec3& x, double margin) {
-  const Preimage found = newton(patch, x, guess(patch, x), margin);
+  return invert_from(patch, x, PatchFrame(patch).guess(x), margin);
+}
+
+std::optional<Preimage> invert_from(const BezierView& patch, const glm::dvec3& x,
+                                    const glm::dvec3& start, double margin) {
+  if (patch.is_rational()) {
+    auto found = invert_from(relative_to(patch, x), glm::dvec3(0), start, margin);
+    if (found) {
+      found->residual = glm::distance(patch.value(found->uvw), x);
+    }
+    return found;
+  }
+  const Preimage found = newton(patch, x, start, margin);
   return std::isfinite(found.residual) ? std::optional(found) : std::nullopt;
 }
 
 std::optional<Preimage> invert_by_subdivision(const BezierView& patch, const glm::dvec3& x,
                                               double tolerance) {
+  if (patch.is_rational()) {
+    const double least = *std::min_element(patch.weights.begin(), patch.weights.end());
+    auto found = invert_by_subdivision(relative_to(patch, x), glm::dvec3(0), least * tolerance);
+    if (found) {
+      found->residual = glm::distance(patch.value(found->uvw), x);
+    }
+    return found;
+  }
   return Search(patch, x, tolerance).run();
 }
 

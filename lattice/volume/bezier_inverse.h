@@ -25,6 +25,10 @@ struct Preimage {
 [[nodiscard]] std::optional<Preimage> invert(const BezierView& patch, const glm::dvec3& x,
                                              double margin = 0);
 
+/// The same from another start, near [0,1]³.
+[[nodiscard]] std::optional<Preimage> invert_from(const BezierView& patch, const glm::dvec3& x,
+                                                  const glm::dvec3& start, double margin = 0);
+
 /// The same by subdivision, up to the first preimage within `tolerance` (a length): the cube is
 /// halved by de Casteljau's algorithm, parts whose hull cannot hold x are dropped, and Newton's
 /// method starts in what is left. Else the best try, and is_converged tells whether nothing can

@@ -14,7 +14,8 @@ namespace espalier {
 
 /// A Bézier hexahedron whose points stand elsewhere: of degree (p, q, r) per axis, with
 /// (p+1)(q+1)(r+1) points, u fastest (index_order.h). Their values are positions, or displacements.
-/// Degrees (1,1,1), (2,2,2) and (3,3,3) have code of their own; no call allocates up to degree 7.
+/// Degrees (1,1,1), (2,2,2), (3,3,3) and (1,1,3) have code of their own; no call allocates up to
+/// degree 7.
 struct BezierView {
   std::array<int, 3> degree = {1, 1, 1};
   std::span<const glm::dvec3> points;
@@ -22,8 +23,18 @@ struct BezierView {
   /// Of any degree; the derivative divided by it is regular up to the apex where the points of the
   /// layer below (at 1 − 1/r) span a proper cone with it.
   bool is_pyramid = false;
+  /// Of a rational patch, one a point and positive: `points` are then numerators, positions times
+  /// weights, and a value is their sum over that of the weights. Empty: a polynomial. No pyramid is
+  /// rational.
+  std::span<const double> weights = {};
 
-  /// uvw: in [0,1]³, or near it: the polynomial goes on outside. Exactly zero if all points are.
+  [[nodiscard]] bool is_rational() const { return !weights.empty(); }
+  /// Point i where it stands: divided by its weight.
+  [[nodiscard]] glm::dvec3 position(std::size_t i) const {
+    return is_rational() ? points[i] / weights[i] : points[i];
+  }
+
+  /// uvw: in [0,1]³, or near it: the map goes on outside. Exactly zero if all points are.
   [[nodiscard]] glm::dvec3 value(const glm::dvec3& uvw) const;
 
   /// Derivatives along u, v, w as columns. For a pyramid the first two are divided by 1 − w, which
@@ -34,7 +45,7 @@ struct BezierView {
   void evaluate(const glm::dvec3& uvw, glm::dvec3& value, glm::dmat3& derivative) const;
 
   /// Holds all values on [0,1]³.
-  [[nodiscard]] Box hull_box() const { return box_of(points); }
+  [[nodiscard]] Box hull_box() const;
 };
 
 /// A Bézier hexahedron with its points: see BezierView.
@@ -42,9 +53,10 @@ struct BezierPatch {
   std::array<int, 3> degree = {1, 1, 1};
   std::vector<glm::dvec3> points;
   bool is_pyramid = false;
+  std::vector<double> weights = {};
 
   // NOLINTNEXTLINE(google-explicit-constructor): a patch serves wherever a view does.
-  operator BezierView() const { return {degree, points, is_pyramid}; }
+  operator BezierView() const { return {degree, points, is_pyramid, weights}; }
   [[nodiscard]] BezierView view() const { return *this; }
 
   [[nodiscard]] glm::dvec3 value(const glm::dvec3& uvw) const { return view().value(uvw); }

@@ -1,14 +1,19 @@
 #include "lattice/volume/stencil_table.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
+#include <numeric>
+#include <utility>
 
+#include "lattice/core/compressed_rows.h"
 #include "lattice/core/parallel.h"
 
 namespace espalier {
 namespace {
 
 constexpr std::size_t kRowsPerRange = 2048;
+constexpr std::size_t kProductsPerRange = 4096;
 
 /// The rows of one range, before they are joined.
 struct Block {
@@ -16,6 +21,14 @@ struct Block {
   std::vector<std::int32_t> indices;
   std::vector<double> weights;
 };
+
+glm::dvec3 weighted_sum(const StencilTable::Row& row, std::span<const glm::dvec3> controls) {
+  glm::dvec3 sum(0);
+  for (std::size_t k = 0; k < row.indices.size(); ++k) {
+    sum += row.weights[k] * controls[static_cast<std::size_t>(row.indices[k])];
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -59,6 +72,7 @@ StencilTable StencilTable::build(std::size_t n_rows, std::size_t n_controls,
   for (const Block& block : blocks) {
     n_weights += block.indices.size();
   }
+  static_cast<void>(row_offset(n_weights));
   table.indices_.reserve(n_weights);
   table.weights_.reserve(n_weights);
   for (Block& block : blocks) {
@@ -76,22 +90,68 @@ std::vector<glm::dvec3> StencilTable::apply(std::span<const glm::dvec3> controls
   assert(controls.size() == n_controls_);
   std::vector<glm::dvec3> points(n_rows());
   parallel_for(
-      n_rows(),
-      [&](std::size_t i) {
-        const Row row = (*this)[i];
-        glm::dvec3 sum(0);
-        for (std::size_t k = 0; k < row.indices.size(); ++k) {
-          sum += row.weights[k] * controls[static_cast<std::size_t>(row.indices[k])];
-        }
-        points[i] = sum;
-      },
-      4096);
+      n_rows(), [&](std::size_t i) { points[i] = weighted_sum((*this)[i], controls); },
+      kProductsPerRange);
   return points;
+}
+
+void StencilTable::apply(std::span<const glm::dvec3> controls, std::span<const std::int32_t> rows,
+                         std::span<glm::dvec3> points) const {
+  assert(controls.size() == n_controls_ && points.size() == n_rows());
+  parallel_for(
+      rows.size(),
+      [&](std::size_t i) {
+        const auto row = static_cast<std::size_t>(rows[i]);
+        points[row] = weighted_sum((*this)[row], controls);
+      },
+      kProductsPerRange);
+}
+
+StencilTable StencilTable::transpose() const {
+  StencilTable result;
+  result.n_controls_ = n_rows();
+  // Row j starts at offsets[j + 1] until it is filled, which moves it to its end.
+  std::vector<std::uint32_t> offsets(n_controls_ + 2, 0);
+  for (const std::int32_t index : indices_) {
+    ++offsets[static_cast<std::size_t>(index) + 2];
+  }
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  result.indices_.resize(n_weights());
+  result.weights_.resize(n_weights());
+  for (std::size_t i = 0; i < n_rows(); ++i) {
+    const Row row = (*this)[i];
+    for (std::size_t k = 0; k < row.indices.size(); ++k) {
+      const std::uint32_t place = offsets[static_cast<std::size_t>(row.indices[k]) + 1]++;
+      result.indices_[place] = static_cast<std::int32_t>(i);
+      result.weights_[place] = row.weights[k];
+    }
+  }
+  offsets.pop_back();
+  result.offsets_ = std::move(offsets);
+  return result;
 }
 
 std::size_t StencilTable::bytes() const {
   return offsets_.capacity() * sizeof(std::uint32_t) + indices_.capacity() * sizeof(std::int32_t) +
          weights_.capacity() * sizeof(double);
+}
+
+ReachedRows::ReachedRows(const StencilTable& table)
+    : transposed_(table.transpose()), is_reached_((table.n_rows() + 63) / 64, 0) {}
+
+std::span<const std::int32_t> ReachedRows::of(std::span<const std::int32_t> controls) {
+  for (const std::int32_t control : controls) {
+    for (const std::int32_t row : transposed_[static_cast<std::size_t>(control)].indices) {
+      is_reached_[static_cast<std::size_t>(row) / 64] |= std::uint64_t{1} << (row % 64);
+    }
+  }
+  rows_.clear();
+  for (std::size_t word = 0; word < is_reached_.size(); ++word) {
+    for (std::uint64_t& bits = is_reached_[word]; bits != 0; bits &= bits - 1) {
+      rows_.push_back(static_cast<std::int32_t>(64 * word) + std::countr_zero(bits));
+    }
+  }
+  return rows_;
 }
 
 StencilTable compose(const StencilTable& first, const StencilTable& second) {

@@ -12,19 +12,20 @@ namespace {
 
 /// Coefficients become Bézier points along one axis. n_before: values between neighbours on the
 /// axis; values: any number of lines, end to end.
-void extract(const Extraction& extraction, std::size_t n_before,
-             const std::vector<glm::dvec3>& values, std::vector<glm::dvec3>& out) {
+template <class T>
+void extract(const Extraction& extraction, std::size_t n_before, const std::vector<T>& values,
+             std::vector<T>& out) {
   const auto n_in = static_cast<std::size_t>(extraction.n_coefficients);
   const auto n_out = static_cast<std::size_t>(extraction.degree + 1);
   const std::size_t n_blocks = values.size() / (n_in * n_before);
   out.resize(n_blocks * n_out * n_before);
   for (std::size_t block = 0; block < n_blocks; ++block) {
-    const glm::dvec3* in = &values[block * n_in * n_before];
+    const T* in = &values[block * n_in * n_before];
     for (std::size_t i = 0; i < n_out; ++i) {
       const double* row = &extraction.rows[i * n_in];
-      glm::dvec3* line = &out[(block * n_out + i) * n_before];
+      T* line = &out[(block * n_out + i) * n_before];
       for (std::size_t a = 0; a < n_before; ++a) {
-        glm::dvec3 sum = row[0] * in[a];
+        T sum = row[0] * in[a];
         for (std::size_t k = 1; k < n_in; ++k) {
           sum += row[k] * in[k * n_before + a];
         }
@@ -34,36 +35,38 @@ void extract(const Extraction& extraction, std::size_t n_before,
   }
 }
 
-/// The unit cube, or for a leaf what it may hold beyond: not across the volume's boundary, nor
-/// beyond an apex.
-std::pair<glm::dvec3, glm::dvec3> reach(const Patch& patch) {
-  glm::dvec3 low(0);
-  glm::dvec3 high(1);
-  for (int axis = 0; axis < 3 && patch.is_leaf; ++axis) {
-    low[axis] -= patch.is_on_boundary(2 * axis) ? 0 : kLeafReach;
-    high[axis] += patch.is_on_boundary(2 * axis + 1) ? 0 : kLeafReach;
-  }
-  if (patch.is_pyramid) {
-    high.z = 1;
-  }
-  return {low, high};
-}
-
 }  // namespace
+
+Box Patch::reach() const {
+  Box box{glm::dvec3(0), glm::dvec3(1)};
+  for (int axis = 0; axis < 3 && is_leaf; ++axis) {
+    box.min[axis] -= is_on_boundary(2 * axis) ? 0 : kLeafReach;
+    box.max[axis] += is_on_boundary(2 * axis + 1) ? 0 : kLeafReach;
+  }
+  if (is_pyramid) {
+    box.max.z = 1;
+  }
+  return box;
+}
 
 Volume::Volume(VolumeTables tables, std::vector<glm::dvec3> rest_controls)
     : tables_(std::move(tables)),
       rest_controls_(std::move(rest_controls)),
       rest_points_(points(rest_controls_)),
-      diagonal_(2 * box_of(rest_controls_).radius()) {
+      diagonal_(2 * box_of(tables_.offsets.empty() ? rest_controls_ : rest_points_).radius()) {
   assert(tables_.blocks.n_rows() == tables_.patches.size());
+  assert(tables_.weights.empty() || tables_.weights.size() == n_points());
   for (const Extraction& extraction : tables_.extractions) {
     is_identity_.push_back(extraction == bezier_extraction(extraction.degree));
   }
 }
 
 std::vector<glm::dvec3> Volume::points(std::span<const glm::dvec3> controls) const {
-  return tables_.stencils.apply(controls);
+  std::vector<glm::dvec3> result = tables_.stencils.apply(controls);
+  for (std::size_t i = 0; i < tables_.offsets.size(); ++i) {
+    result[i] += tables_.offsets[i];
+  }
+  return result;
 }
 
 std::vector<glm::dvec3> Volume::displacements(std::span<const glm::dvec3> pose) const {
@@ -75,7 +78,7 @@ std::vector<glm::dvec3> Volume::displacements(std::span<const glm::dvec3> pose) 
   for (std::size_t i = 0; i < moved.size(); ++i) {
     moved[i] -= rest_controls_[i];
   }
-  return points(moved);
+  return tables_.stencils.apply(moved);
 }
 
 std::array<int, 3> Volume::degree(std::size_t i) const {
@@ -85,27 +88,46 @@ std::array<int, 3> Volume::degree(std::size_t i) const {
   return {along(0), along(1), along(2)};
 }
 
+template <class T>
+void Volume::extract_block(const Patch& patch, std::vector<T>& values) const {
+  thread_local std::vector<T> extracted;
+  std::size_t n_before = 1;
+  for (const std::size_t index : patch.extractions) {
+    const Extraction& extraction = tables_.extractions[index];
+    if (!is_identity_[index]) {
+      extract(extraction, n_before, values, extracted);
+      values.assign(extracted.begin(), extracted.end());
+    }
+    n_before *= static_cast<std::size_t>(extraction.degree + 1);
+  }
+  assert(values.size() == n_before);
+}
+
 void Volume::bezier(std::size_t i, std::span<const glm::dvec3> values, BezierPatch& out) const {
+  bezier(i, values, tables_.weights, out);
+}
+
+void Volume::bezier(std::size_t i, std::span<const glm::dvec3> values,
+                    std::span<const double> weights, BezierPatch& out) const {
   const Patch& patch = tables_.patches[i];
   const std::span<const std::int32_t> points = tables_.blocks[i];
   out.is_pyramid = patch.is_pyramid;
+  out.degree = degree(i);
   out.points.resize(points.size());
+  out.weights.resize(weights.empty() ? 0 : points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
-    out.points[k] = values[static_cast<std::size_t>(points[k])];
-  }
-  thread_local std::vector<glm::dvec3> extracted;
-  std::size_t n_before = 1;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::size_t index = patch.extractions[axis];
-    const Extraction& extraction = tables_.extractions[index];
-    if (!is_identity_[index]) {
-      extract(extraction, n_before, out.points, extracted);
-      out.points.assign(extracted.begin(), extracted.end());
+    const auto point = static_cast<std::size_t>(points[k]);
+    if (weights.empty()) {
+      out.points[k] = values[point];
+    } else {
+      out.weights[k] = weights[point];
+      out.points[k] = weights[point] * values[point];
     }
-    out.degree[axis] = extraction.degree;
-    n_before *= static_cast<std::size_t>(extraction.degree + 1);
   }
-  assert(out.points.size() == n_before);
+  extract_block(patch, out.points);
+  if (!weights.empty()) {
+    extract_block(patch, out.weights);
+  }
 }
 
 BezierPatch Volume::bezier(std::size_t i, std::span<const glm::dvec3> values) const {
@@ -122,8 +144,8 @@ std::vector<Box> Volume::patch_boxes() const {
       bezier(i, rest_points_, map);
       boxes[i] = map.hull_box();
       if (patch(i).is_leaf) {
-        const auto [low, high] = reach(patch(i));
-        boxes[i].add(map.part(low, high).hull_box());
+        const Box reach = patch(i).reach();
+        boxes[i].add(map.part(reach.min, reach.max).hull_box());
       }
     }
   });
@@ -131,9 +153,11 @@ std::vector<Box> Volume::patch_boxes() const {
 }
 
 std::size_t Volume::bytes() const {
-  std::size_t sum = tables_.patches.capacity() * sizeof(Patch) + tables_.blocks.bytes() +
-                    tables_.stencils.bytes() +
-                    (rest_controls_.capacity() + rest_points_.capacity()) * sizeof(glm::dvec3);
+  std::size_t sum =
+      tables_.patches.capacity() * sizeof(Patch) + tables_.blocks.bytes() +
+      tables_.stencils.bytes() + tables_.weights.capacity() * sizeof(double) +
+      (rest_controls_.capacity() + rest_points_.capacity() + tables_.offsets.capacity()) *
+          sizeof(glm::dvec3);
   for (const Extraction& extraction : tables_.extractions) {
     sum += extraction.rows.capacity() * sizeof(double);
   }

@@ -29,6 +29,9 @@ struct Patch {
   bool is_leaf = false;  ///< meets its neighbours only nearly: holds what is left between them too
 
   [[nodiscard]] bool is_on_boundary(int face) const { return (boundary_faces >> face & 1) != 0; }
+  /// The parameters at which the patch may hold points: the unit cube, or for a leaf kLeafReach
+  /// more, but not across the volume's boundary, nor beyond an apex.
+  [[nodiscard]] Box reach() const;
 };
 
 /// The tables of a volume.
@@ -38,6 +41,11 @@ struct VolumeTables {
   std::vector<Patch> patches;
   CompressedRows<std::int32_t> blocks;  ///< a row a patch: points, u fastest, as many as the
                                         ///< extractions have coefficients
+  /// Of the points, positive: every patch is rational. Empty: none is.
+  std::vector<double> weights = {};
+  /// Of the points from what their stencils make of the control points at rest or posed: they give
+  /// a volume to control points that lie in a plane or on a line. Empty: none.
+  std::vector<glm::dvec3> offsets = {};
 };
 
 /// Patches over points, and the points as stencils over control points. Immutable.
@@ -59,30 +67,41 @@ class Volume {
   [[nodiscard]] const StencilTable& stencils() const { return tables_.stencils; }
   [[nodiscard]] std::span<const glm::dvec3> rest_controls() const { return rest_controls_; }
   [[nodiscard]] std::span<const glm::dvec3> rest_points() const { return rest_points_; }
+  /// Of the points; empty unless the patches are rational.
+  [[nodiscard]] std::span<const double> weights() const { return tables_.weights; }
+  [[nodiscard]] bool is_rational() const { return !tables_.weights.empty(); }
 
-  /// The points for control points, or their displacements for displacements: they depend on each
-  /// other linearly. controls: #controls; result: #points. Points that only see zero displacements
-  /// get exactly zero. O(#weights).
+  /// The points for control points. controls: #controls; result: #points. O(#weights).
   [[nodiscard]] std::vector<glm::dvec3> points(std::span<const glm::dvec3> controls) const;
 
-  /// Displacements of the points for a pose. Throws ParameterError unless pose: #controls.
+  /// Displacements of the points for a pose; they depend on those of the control points linearly.
+  /// Points that only see zero displacements get exactly zero. Throws ParameterError unless pose:
+  /// #controls.
   [[nodiscard]] std::vector<glm::dvec3> displacements(std::span<const glm::dvec3> pose) const;
 
-  /// Patch i in Bézier form, of the rest points or of any other values. values: #points. `out`
-  /// keeps its memory from call to call.
+  /// Patch i in Bézier form, of the rest points or of any other values. values: #points; a rational
+  /// patch's numerators are values times weights. `out` keeps its memory from call to call.
   void bezier(std::size_t i, std::span<const glm::dvec3> values, BezierPatch& out) const;
   [[nodiscard]] BezierPatch bezier(std::size_t i, std::span<const glm::dvec3> values) const;
+  /// The same with weights other than those at rest: #points, positive; or empty: a polynomial.
+  void bezier(std::size_t i, std::span<const glm::dvec3> values, std::span<const double> weights,
+              BezierPatch& out) const;
 
   /// A box for each patch that holds all of it at rest, and a leaf's reach beyond (kLeafReach).
   [[nodiscard]] std::vector<Box> patch_boxes() const;
 
-  /// Length of the diagonal of the control points' box at rest: the scale of tolerances.
+  /// Length of the diagonal of the control points' box at rest, of the points' box where they have
+  /// offsets: the scale of tolerances.
   [[nodiscard]] double diagonal() const { return diagonal_; }
 
   /// Heap memory in use.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  /// Coefficients into Bézier points, in place. T: glm::dvec3, or double.
+  template <class T>
+  void extract_block(const Patch& patch, std::vector<T>& values) const;
+
   VolumeTables tables_;
   std::vector<char> is_identity_;  // of each extraction: its coefficients are the Bézier points
   std::vector<glm::dvec3> rest_controls_;

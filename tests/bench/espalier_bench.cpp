@@ -2,14 +2,13 @@
 /// memory, to evaluating. Each time is the best of a few repeats.
 ///
 /// usage: espalier_bench [cells along an axis of the large grid, 100]
+///        espalier_bench evaluation          only the table of evaluation and its marks
 
 #include <fmt/format.h>
 #include <malloc.h>
 
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <ctime>
 #include <glm/common.hpp>
 #include <numeric>
 #include <random>
@@ -25,46 +24,19 @@
 #include "lattice/subdivision/freeze.h"
 #include "lattice/subdivision/refine.h"
 #include "lattice/topology/cell_complex.h"
+#include "tests/bench/evaluation_bench.h"
+#include "tests/bench/timing.h"
 
 namespace espalier {
 namespace {
 
-/// With one thread the time of the processor, which other programs hardly disturb; with more the
-/// time that passes.
-double now() {
-  timespec time{};
-  ::clock_gettime(thread_count() == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-/// Seconds that `work` takes: the best of `repeats`.
-template <class Work>
-double seconds(const Work& work, int repeats = 3) {
-  double best = 1e300;
-  for (int i = 0; i < repeats; ++i) {
-    const double start = now();
-    work();
-    best = std::min(best, now() - start);
-  }
-  return best;
-}
+using bench::copy_seconds;
+using bench::print;
+using bench::seconds;
 
 std::size_t heap_in_use() {
   const struct mallinfo2 info = ::mallinfo2();
   return info.uordblks + info.hblkhd;
-}
-
-/// Seconds to copy `bytes` once, out of and into memory that is too large for a cache.
-double copy_seconds(std::size_t bytes) {
-  static constexpr std::size_t kBlock = std::size_t{1} << 28;
-  static std::vector<char> from(kBlock, 1);
-  static std::vector<char> to(kBlock, 2);
-  const double a_byte = seconds([] { std::memcpy(to.data(), from.data(), kBlock); }) / kBlock;
-  return a_byte * static_cast<double>(bytes);
-}
-
-void print(const std::string& what, double value, const std::string& unit) {
-  fmt::print("  {:<66} {:>9.3g} {}\n", what, value, unit);
 }
 
 using HexahedronCorners = std::array<std::int32_t, 8>;
@@ -209,6 +181,11 @@ void bench_deform() {
 }
 
 int run(int argc, char** argv) {
+  constexpr std::size_t kMostPoints = 10000000;
+  if (argc > 1 && std::string(argv[1]) == "evaluation") {
+    bench_evaluation(kMostPoints);
+    return 0;
+  }
   const int n = argc > 1 ? std::atoi(argv[1]) : 100;
   if (n < 1 || n > 400) {
     fmt::print(stderr, "espalier_bench: the grid has {} cells along an axis, must be 1 to 400\n",
@@ -222,6 +199,7 @@ int run(int argc, char** argv) {
   bench_refine("a cylinder of 15 wedges", lattice_from(make_cylinder(cylinder)), 5);
   bench_refine("a grid of 216 cubes", lattice_from(make_box({6, 6, 6}, {0, 0, 0}, {1, 1, 1})), 3);
   bench_deform();
+  bench_evaluation(kMostPoints);
   return 0;
 }
 

@@ -4,7 +4,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <random>
 
 #include "deform/evaluate/displace.h"
 #include "lattice/build/primitives.h"
@@ -12,28 +11,13 @@
 #include "lattice/subdivision/freeze.h"
 #include "lattice/volume/bezier_inverse.h"
 #include "tests/support/families.h"
+#include "tests/support/places.h"
 #include "tests/support/spline_volume.h"
 
 namespace espalier {
 namespace {
 
-/// Points of random patches at random places, some of them on faces, edges and corners.
-std::vector<glm::dvec3> points_inside(const Volume& volume, std::size_t n, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<glm::dvec3> points;
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t patch = random() % volume.n_patches();
-    glm::dvec3 uvw(unit(random), unit(random), unit(random));
-    for (int axis = 0; axis < 3; ++axis) {
-      if (random() % 4 == 0) {
-        uvw[axis] = random() % 2 == 0 ? 0 : 1;
-      }
-    }
-    points.push_back(volume.bezier(patch, volume.rest_points()).value(uvw));
-  }
-  return points;
-}
+using test::points_inside;
 
 glm::dvec3 held_value(const Volume& volume, const Binding& binding, std::size_t i,
                       std::span<const glm::dvec3> values) {
@@ -168,6 +152,24 @@ TEST(Embed, gives_what_is_left_between_leaves_to_the_nearest_by_extrapolation) {
     EXPECT_GE(uvw.x, -kLeafReach);
     EXPECT_LE(uvw.x, 1 + kLeafReach);
   }
+}
+
+TEST(Embed, prefers_the_leaf_that_is_nearer_in_space_to_the_one_nearer_in_parameters) {
+  // Two leaves end to end, 100 long and 1 wide, and a point beside the second.
+  std::vector<glm::dvec3> corners = test::grid_points({2, 1, 1});
+  for (glm::dvec3& point : corners) {
+    point.x *= 100;
+  }
+  VolumeTables tables;
+  tables.stencils = StencilTable::build(
+      12, 12, [](std::size_t i, StencilRow& row) { row.add(static_cast<std::int32_t>(i), 1.0); });
+  tables.extractions = {bezier_extraction(1)};
+  tables.patches = {Patch{{0, 0, 0}, 0, false, true}, Patch{{0, 0, 0}, 0, false, true}};
+  tables.blocks = {{0, 1, 3, 4, 6, 7, 9, 10}, {1, 2, 4, 5, 7, 8, 10, 11}};
+  const Volume volume(std::move(tables), std::move(corners));
+  const Binding binding = embed(volume, std::vector<glm::dvec3>{{101, 1.04, 0.5}, {99, 1.04, 0.5}});
+  EXPECT_EQ(binding.points, (std::vector<std::int32_t>{1, 0}));
+  EXPECT_EQ(binding.patches, (std::vector<std::int32_t>{0, 1}));
 }
 
 TEST(Embed, leaves_points_beyond_a_leafs_reach_outside) {

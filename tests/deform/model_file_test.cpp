@@ -35,9 +35,11 @@ TEST(ModelFile, writes_what_it_read_byte_for_byte) {
 
 TEST(ModelFile, names_the_formats_that_work_when_it_knows_none) {
   EXPECT_EQ(error_of([] { (void)read_model("m.xyz"); }),
-            "m.xyz: not a model: extension '.xyz' is unknown; models that can be read: .obj");
+            "m.xyz: not a model: extension '.xyz' is unknown; models that can be read: .obj, .off, "
+            ".ply, .stl");
   EXPECT_EQ(error_of([] { (void)read_model("model"); }),
-            "model: not a model: the name has no extension; models that can be read: .obj");
+            "model: not a model: the name has no extension; models that can be read: .obj, .off, "
+            ".ply, .stl");
 }
 
 TEST(ModelFile, says_that_a_file_is_missing) {

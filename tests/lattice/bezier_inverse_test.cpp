@@ -3,27 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "tests/support/places.h"
 #include "tests/support/spline_volume.h"
 
 namespace espalier {
 namespace {
 
+using test::random_place;
 using test::warped_cube;
-
-/// A random place; some on faces, edges and corners.
-glm::dvec3 place(std::mt19937& random) {
-  std::uniform_real_distribution<double> unit(0, 1);
-  glm::dvec3 uvw(unit(random), unit(random), unit(random));
-  for (int axis = 0; axis < 3; ++axis) {
-    if (random() % 4 == 0) {
-      uvw[axis] = random() % 2 == 0 ? 0 : 1;
-    }
-  }
-  return uvw;
-}
 
 TEST(Invert, is_exact_to_round_off_in_warped_cubes_and_pyramids) {
   std::mt19937 random(1);
@@ -34,7 +25,7 @@ TEST(Invert, is_exact_to_round_off_in_warped_cubes_and_pyramids) {
       const double highest = *std::max_element(degree.begin(), degree.end());
       const double noise = (is_pyramid ? 0.1 : 0.2) / highest;  // no folds near the apex either
       const BezierPatch patch = warped_cube(degree, noise, trial, is_pyramid);
-      const glm::dvec3 uvw = place(random);
+      const glm::dvec3 uvw = random_place(random);
       const auto found = invert(patch, patch.value(uvw));
       ASSERT_TRUE(found.has_value());
       EXPECT_LT(found->residual, 2e-15) << degree[0] << degree[1] << degree[2] << trial;
@@ -57,7 +48,7 @@ TEST(Invert, takes_one_step_in_affine_patches) {
       point = A * point + glm::dvec3(3, 4, 5);
     }
     for (int trial = 0; trial < 100; ++trial) {
-      const auto found = invert(patch, patch.value(place(random)));
+      const auto found = invert(patch, patch.value(random_place(random)));
       ASSERT_TRUE(found.has_value());
       EXPECT_LE(found->n_steps, 1);
       EXPECT_LT(found->residual, 2e-14);
@@ -70,7 +61,7 @@ TEST(Invert, takes_few_steps_in_warped_tricubic_patches) {
   std::vector<int> n_steps;
   for (unsigned trial = 0; trial < 1000; ++trial) {
     const BezierPatch patch = warped_cube({3, 3, 3}, 0.1, trial);
-    const auto found = invert(patch, patch.value(place(random)));
+    const auto found = invert(patch, patch.value(random_place(random)));
     ASSERT_TRUE(found.has_value());
     EXPECT_LT(found->residual, 1e-12);
     n_steps.push_back(found->n_steps);
@@ -120,7 +111,7 @@ TEST(InvertBySubdivision, misses_no_point_of_patches_that_fold) {
   int n_newton_fails = 0;
   for (unsigned trial = 0; trial < 400; ++trial) {
     const BezierPatch patch = warped_cube({3, 3, 3}, 0.5, trial);
-    const glm::dvec3 x = patch.value(place(random));
+    const glm::dvec3 x = patch.value(random_place(random));
     const auto by_newton = invert(patch, x);
     n_newton_fails += by_newton && by_newton->residual < 1e-12 ? 0 : 1;
     const auto found = invert_by_subdivision(patch, x, 1e-13);
@@ -140,6 +131,26 @@ TEST(InvertBySubdivision, is_certain_of_points_outside) {
       EXPECT_TRUE(found->is_converged) << distance;
     }
   }
+}
+
+TEST(BezierInverse, finds_the_place_in_a_rational_patch) {
+  BezierPatch patch = test::warped_cube({3, 2, 3}, 0.05, 21);
+  for (std::size_t i = 0; i < patch.points.size(); ++i) {
+    patch.weights.push_back(1 + 0.5 * std::sin(static_cast<double>(i)));
+    patch.points[i] = patch.weights[i] * (patch.points[i] + glm::dvec3(5, -3, 2));
+  }
+  for (const glm::dvec3& uvw :
+       {glm::dvec3(0.3, 0.6, 0.2), glm::dvec3(0, 1, 0.5), glm::dvec3(0.9, 0.1, 0.95)}) {
+    const glm::dvec3 x = patch.value(uvw);
+    const auto by_newton = invert(patch, x);
+    ASSERT_TRUE(by_newton);
+    EXPECT_LT(glm::distance(by_newton->uvw, uvw), 1e-12);
+    EXPECT_LT(by_newton->residual, 1e-14);
+    const auto by_subdivision = invert_by_subdivision(patch, x, 1e-13);
+    ASSERT_TRUE(by_subdivision);
+    EXPECT_LT(glm::distance(patch.value(by_subdivision->uvw), x), 1e-13);
+  }
+  EXPECT_FALSE(invert_by_subdivision(patch, {9, 9, 9}, 1e-12));
 }
 
 }  // namespace

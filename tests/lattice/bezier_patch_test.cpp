@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -165,6 +166,96 @@ TEST(BezierPatch, hull_box_holds_all_values) {
   const BezierPatch patch = warped_cube({3, 2, 3}, 0.5, 10);
   for (const glm::dvec3& uvw : places(11)) {
     EXPECT_TRUE(patch.hull_box().grown(1e-15).contains(patch.value(glm::clamp(uvw, 0.0, 1.0))));
+  }
+}
+
+/// A warped cube of positive weights.
+BezierPatch rational_cube(const std::array<int, 3>& degree, unsigned seed) {
+  BezierPatch patch = warped_cube(degree, 0.1, seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> weight(0.5, 2);
+  for (glm::dvec3& point : patch.points) {
+    patch.weights.push_back(weight(random));
+    point *= patch.weights.back();
+  }
+  return patch;
+}
+
+TEST(BezierPatch, a_rational_one_is_the_quotient_of_two_polynomials) {
+  for (const auto& degree : kDegrees) {
+    const BezierPatch patch = rational_cube(degree, 12);
+    BezierPatch numerators = patch;
+    numerators.weights.clear();
+    BezierPatch weights = numerators;
+    for (std::size_t i = 0; i < weights.points.size(); ++i) {
+      weights.points[i] = glm::dvec3(patch.weights[i]);
+    }
+    for (const glm::dvec3& uvw : places(13)) {
+      const glm::dvec3 wanted =
+          value_by_de_casteljau(numerators, uvw) / value_by_de_casteljau(weights, uvw);
+      EXPECT_LT(glm::distance(patch.value(uvw), wanted), 2e-13);
+    }
+  }
+}
+
+TEST(BezierPatch, derivative_of_a_rational_one_is_the_difference_quotient) {
+  for (const auto& degree : kDegrees) {
+    const BezierPatch patch = rational_cube(degree, 14);
+    for (const glm::dvec3& uvw : places(15)) {
+      const glm::dvec3 at = glm::clamp(uvw, 0.0, 1.0);
+      glm::dvec3 value;
+      glm::dmat3 derivative;
+      patch.evaluate(at, value, derivative);
+      EXPECT_LT(glm::distance(value, patch.value(at)), 1e-14);
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto quotient = [&](double h) {
+          glm::dvec3 step(0);
+          step[axis] = h;
+          return (patch.value(at + step) - patch.value(at - step)) / (2 * h);
+        };
+        const glm::dvec3 limit = (4.0 * quotient(5e-5) - quotient(1e-4)) / 3.0;
+        EXPECT_LT(glm::distance(derivative[axis], limit), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(BezierPatch, equal_weights_are_no_weights) {
+  BezierPatch patch = warped_cube({3, 2, 3}, 0.2, 16);
+  const BezierPatch polynomial = patch;
+  patch.weights.assign(patch.points.size(), 4.0);
+  for (glm::dvec3& point : patch.points) {
+    point *= 4.0;
+  }
+  for (const glm::dvec3& uvw : places(17)) {
+    EXPECT_LT(glm::distance(patch.value(uvw), polynomial.value(uvw)), 1e-14);
+  }
+}
+
+TEST(BezierPatch, a_quarter_circle_is_exact) {
+  const double h = std::sqrt(0.5);
+  const BezierPatch arc{{2, 0, 0}, {{1, 0, 0}, {h, h, 0}, {0, 1, 0}}, false, {1, h, 1}};
+  for (int i = 0; i <= 16; ++i) {
+    const glm::dvec3 uvw(i / 16.0, 0, 0);
+    EXPECT_NEAR(glm::length(arc.value(uvw)), 1, 2e-16);
+    EXPECT_NEAR(glm::dot(arc.value(uvw), arc.derivative(uvw)[0]), 0, 5e-16);
+  }
+}
+
+TEST(BezierPatch, part_elevation_and_hull_of_a_rational_one_are_those_of_its_map) {
+  const glm::dvec3 low(0.2, 0, 0.25);
+  const glm::dvec3 high(0.7, 0.5, 1);
+  for (const auto& degree : {kDegrees[0], kDegrees[2], kDegrees[7]}) {
+    const BezierPatch patch = rational_cube(degree, 18);
+    const BezierPatch part = patch.part(low, high);
+    const BezierPatch higher = patch.elevated(1, degree[1] + 2);
+    EXPECT_EQ(higher.weights.size(), higher.points.size());
+    for (const glm::dvec3& place : places(19)) {
+      const glm::dvec3 uvw = glm::clamp(place, 0.0, 1.0);
+      EXPECT_LT(glm::distance(part.value(uvw), patch.value(low + uvw * (high - low))), 1e-13);
+      EXPECT_LT(glm::distance(higher.value(uvw), patch.value(uvw)), 1e-13);
+      EXPECT_TRUE(part.hull_box().grown(1e-14).contains(part.value(uvw)));
+    }
   }
 }
 

@@ -136,6 +136,9 @@ TEST(Extrude, names_what_it_refuses) {
             "extrude: face 0: point 3 does not exist, there are 3");
   EXPECT_EQ(with({{0, -1, 2}}, {0, 0, 1}, 1),
             "extrude: face 0: point -1 does not exist, there are 3");
+  EXPECT_EQ(with({{0, 1, 2}, {2, 1, 0}}, {0, 0, 1}, 1),
+            "extrude: the mesh is closed, only an open surface can be extruded: draw the section "
+            "of the lattice, or cut the mesh open");
   EXPECT_EQ(with(Rows::uniform(30000, std::vector<std::int32_t>(30000, 0)), {0, 0, 1}, 10000),
             "extrude: more than 200 million faces; use fewer layers");
 }

@@ -190,6 +190,8 @@ TEST(CellComplex, counts_the_defects_it_does_not_name) {
   tables.n_vertices = 11;
   EXPECT_EQ(complaint(tables),
             "invalid lattice: vertex 8: belongs to no face (and 2 more defects)");
+  tables.n_vertices = 10;
+  EXPECT_EQ(complaint(tables), "invalid lattice: vertex 8: belongs to no face (and 1 more defect)");
 }
 
 }  // namespace

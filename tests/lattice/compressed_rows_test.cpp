@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "lattice/core/error.h"
+
 namespace espalier {
 namespace {
 
@@ -66,6 +68,21 @@ TEST(CompressedRows, stores_no_offsets_for_rows_of_one_length) {
   found.push_back(std::vector<int>{7});
   found.shrink_to_fit();
   EXPECT_EQ(found.bytes(), 7 * sizeof(int) + 4 * sizeof(std::uint32_t));
+}
+
+TEST(CompressedRows, refuses_more_values_than_its_offsets_can_count) {
+  constexpr std::size_t kMost = 0xffffffffU;
+  EXPECT_EQ(row_offset(kMost), kMost);
+  EXPECT_THROW((void)row_offset(kMost + 1), Error);
+  Rows rows = {{1, 2}};
+  const int value = 0;
+  try {
+    rows.push_back({&value, kMost - 1});  // refused before it is read
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "a table of 4294967296 values is too large: it can hold 4294967295");
+  }
+  EXPECT_EQ(to_vectors(rows), (Values{{1, 2}}));
 }
 
 TEST(CompressedRows, lets_values_be_changed_in_place) {

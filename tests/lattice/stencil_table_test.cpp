@@ -124,6 +124,93 @@ TEST(StencilTable, composes_like_dense_matrices) {
             table_of(second).apply(table_of(first).apply(some_points(9))));
 }
 
+TEST(StencilTable, transposes_like_a_dense_matrix_and_back) {
+  const Dense matrix = random_matrix(300, 17, 5);
+  const StencilTable table = table_of(matrix);
+  const StencilTable transposed = table.transpose();
+  EXPECT_EQ(transposed.n_rows(), 17u);
+  EXPECT_EQ(transposed.n_controls(), 300u);
+  Dense expected(17, std::vector<double>(300));
+  for (std::size_t i = 0; i < 300; ++i) {
+    for (std::size_t j = 0; j < 17; ++j) {
+      expected[j][i] = matrix[i][j];
+    }
+  }
+  EXPECT_EQ(dense(transposed), expected);
+  for (std::size_t j = 0; j < 17; ++j) {
+    EXPECT_TRUE(std::ranges::is_sorted(transposed[j].indices));
+  }
+  const StencilTable back = transposed.transpose();
+  EXPECT_EQ(dense(back), matrix);
+  EXPECT_EQ(back.n_weights(), table.n_weights());
+  EXPECT_EQ(StencilTable().transpose().n_rows(), 0u);
+}
+
+TEST(StencilTable, transpose_is_the_adjoint) {
+  const StencilTable table = table_of(random_matrix(300, 17, 6));
+  const std::vector<glm::dvec3> x = some_points(17);
+  const std::vector<glm::dvec3> y = some_points(300);
+  const auto inner = [](const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+    glm::dvec3 sum(0);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      sum += a[i] * b[i];
+    }
+    return sum;
+  };
+  EXPECT_EQ(inner(table.apply(x), y), inner(x, table.transpose().apply(y)));  // sums are exact
+}
+
+/// 10,000 rows of up to four weights each over 200 control points, neighbours over neighbours.
+StencilTable banded_table() {
+  return StencilTable::build(10000, 200, [](std::size_t i, StencilRow& row) {
+    for (std::size_t k = 0; k < i % 5; ++k) {
+      row.add(static_cast<std::int32_t>(std::min<std::size_t>(i / 50 + k, 199)),
+              1 / (1.0 + static_cast<double>(i + 3 * k)));
+    }
+  });
+}
+
+TEST(ReachedRows, are_those_with_a_weight_for_a_control_point_ascending) {
+  const StencilTable table = banded_table();
+  ReachedRows reached(table);
+  const std::vector<std::vector<std::int32_t>> choices = {
+      {}, {0}, {199}, {7}, {150, 3, 3, 4}, {0, 199, 100}};
+  for (const std::vector<std::int32_t>& controls : choices) {
+    std::vector<std::int32_t> expected;
+    for (std::size_t i = 0; i < table.n_rows(); ++i) {
+      const auto indices = table[i].indices;
+      if (std::ranges::find_first_of(indices, controls) != indices.end()) {
+        expected.push_back(static_cast<std::int32_t>(i));
+      }
+    }
+    const auto rows = reached.of(controls);
+    EXPECT_EQ(std::vector(rows.begin(), rows.end()), expected);
+  }
+}
+
+TEST(ReachedRows, applied_alone_give_the_bits_of_the_whole_product_and_leave_other_rows) {
+  const StencilTable table = banded_table();
+  ReachedRows reached(table);
+  std::vector<glm::dvec3> controls = some_points(200);
+  std::vector<glm::dvec3> points = table.apply(controls);
+  const std::vector<std::int32_t> moved = {17, 120, 18};
+  for (const std::int32_t control : moved) {
+    controls[static_cast<std::size_t>(control)] += glm::dvec3(0.1, -0.3, 0.7);
+  }
+  const auto rows = reached.of(moved);
+  EXPECT_LT(rows.size(), 600u);
+  table.apply(controls, rows, points);
+  EXPECT_EQ(points, table.apply(controls));
+
+  const glm::dvec3 mark(-1e300);
+  std::vector<glm::dvec3> marked(table.n_rows(), mark);
+  table.apply(controls, rows, marked);
+  for (std::size_t i = 0; i < marked.size(); ++i) {
+    const bool is_reached = std::ranges::binary_search(rows, static_cast<std::int32_t>(i));
+    ASSERT_EQ(marked[i], is_reached ? points[i] : mark) << i;
+  }
+}
+
 TEST(StencilTable, has_the_same_bits_for_any_number_of_threads) {
   const auto build = [] {
     return StencilTable::build(20000, 100, [](std::size_t i, StencilRow& row) {

@@ -129,6 +129,22 @@ TEST(Validate, names_structural_defects) {
   EXPECT_DEFECT(shape, UnusedVertex, "vertex 8: belongs to no face");
 }
 
+TEST(Validate, names_all_else_that_is_wrong_beside_an_unused_vertex) {
+  Shape overlapping = shifted_cubes({0.5, 0.25, 0.125});
+  overlapping.points.emplace_back(5, 5, 5);
+  ++overlapping.polyhedra.n_vertices;
+  EXPECT_EQ(report(defects_of(overlapping)),
+            "unused-vertex: vertex 16: belongs to no face\n"
+            "intersecting-cells: cell 1: intersects cell 0\n");
+
+  Shape open = shapes::cube();
+  open.polyhedra.cells = {{0, 2, 4, 6, 8}};
+  open.points.emplace_back(2, 2, 2);
+  ++open.polyhedra.n_vertices;
+  EXPECT_DEFECT(open, CellNotClosed, "cell 0: is not closed");
+  EXPECT_DEFECT(open, UnusedVertex, "vertex 8: belongs to no face");
+}
+
 TEST(Validate, names_defects_of_shells) {
   Shape shape = shapes::cube();
   shape.polyhedra.cells = {{0, 2, 4}};

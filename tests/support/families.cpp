@@ -120,6 +120,24 @@ Section pentagon_section() {
   return section;
 }
 
+Section o_grid_section() {
+  Section section = grid_section(2, 2);
+  section.name = "O-grid";
+  for (glm::dvec3& point : section.points) {
+    point -= glm::dvec3(1, 1, 0);
+  }
+  const std::array<std::int32_t, 8> rim = {5, 8, 7, 6, 3, 0, 1, 2};  // round the core
+  for (int i = 0; i < 8; ++i) {
+    section.points.push_back(on_circle(2.5, i / 8.0));
+  }
+  for (std::int32_t i = 0; i < 8; ++i) {
+    const std::int32_t next = (i + 1) % 8;
+    section.faces.push_back(std::array{rim[static_cast<std::size_t>(i)], 9 + i, 9 + next,
+                                       rim[static_cast<std::size_t>(next)]});
+  }
+  return section;
+}
+
 Section l_section() {
   Section section{"L", {}, {}};
   std::map<std::pair<int, int>, std::int32_t> number;

@@ -26,6 +26,8 @@ struct Section {
 [[nodiscard]] Section flower_section(int n);
 /// A pentagon with a ring of five quadrilaterals.
 [[nodiscard]] Section pentagon_section();
+/// Four squares with a ring of eight quadrilaterals: four inner vertices of valence 3 on the rim.
+[[nodiscard]] Section o_grid_section();
 /// Three squares round a concave corner, refined once.
 [[nodiscard]] Section l_section();
 /// n triangles round a point of the straight side.

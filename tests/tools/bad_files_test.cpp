@@ -71,10 +71,12 @@ TEST_F(BadFiles, folders_are_named) {
 }
 
 TEST_F(BadFiles, names_of_no_known_kind_are_refused) {
-  EXPECT_EQ(refusal({"info", "hand.off"}, 1),
-            "hand.off: not a model: extension '.off' is unknown; models that can be read: .obj");
+  EXPECT_EQ(refusal({"info", "hand.3ds"}, 1),
+            "hand.3ds: not a model: extension '.3ds' is unknown; models that can be read: .obj, "
+            ".off, .ply, .stl");
   EXPECT_EQ(refusal({"info", "noname"}, 1),
-            "noname: not a model: the name has no extension; models that can be read: .obj");
+            "noname: not a model: the name has no extension; models that can be read: .obj, .off, "
+            ".ply, .stl");
   EXPECT_EQ(refusal({"refine", "cube.json", "-o", "out.obj"}, 1),
             "out.obj: unknown kind of lattice file; lattice files end in .json or .ovm");
   EXPECT_EQ(refusal({"new", "box", "-o", "a.ovmb"}, 1),

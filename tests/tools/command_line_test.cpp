@@ -188,5 +188,14 @@ TEST_F(CommandLine, files_may_have_any_name_that_is_no_option) {
   }
 }
 
+TEST_F(CommandLine, refuses_a_dash_as_output_instead_of_making_a_file_of_that_name) {
+  write_file("cube.obj", cube_obj());
+  const std::string complaint =
+      "--output is '-', must be the name of a file; /dev/stdout is standard output for models";
+  EXPECT_EQ(refusal({"new", "box", "-o", "-"}, 2), complaint);
+  EXPECT_EQ(refusal({"refine", "cube.obj", "-o", "-"}, 2), complaint);
+  EXPECT_EQ(files(), std::vector<std::string>{"cube.obj"});
+}
+
 }  // namespace
 }  // namespace espalier::tools

@@ -220,8 +220,9 @@ TEST_F(DeformCommand, a_model_keeps_its_format) {
             "*.obj");
   EXPECT_EQ(refusal({"deform", "m.obj", "--lattice", "m.obj", "-o", "out.obj"}, 1),
             "m.obj: unknown kind of lattice file; lattice files end in .json or .ovm");
-  EXPECT_EQ(refusal({"deform", "hand.off", "--lattice", "rest.json", "-o", "out.off"}, 1),
-            "hand.off: not a model: extension '.off' is unknown; models that can be read: .obj");
+  EXPECT_EQ(refusal({"deform", "hand.3ds", "--lattice", "rest.json", "-o", "out.off"}, 1),
+            "hand.3ds: not a model: extension '.3ds' is unknown; models that can be read: .obj, "
+            ".off, .ply, .stl");
 }
 
 TEST_F(DeformCommand, to_standard_output_writes_the_model_and_nothing_else) {

@@ -78,7 +78,7 @@ TEST_F(InfoCommand, of_an_invalid_lattice_fails_and_lists_every_defect) {
   EXPECT_EQ(text.status, 1);
   EXPECT_EQ(text.err, "");
   EXPECT_EQ(text.out.substr(0, text.out.find("\n  cell-")),
-            "subdivision lattice with 8 vertices, 6 faces, 1 cells\n  not valid, 2 defects");
+            "subdivision lattice with 8 vertices, 6 faces, 1 cell\n  not valid, 2 defects");
 
   const Outcome report = run({"info", "open.json", "--json"});
   EXPECT_EQ(report.status, 1);

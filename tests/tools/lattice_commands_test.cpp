@@ -88,15 +88,13 @@ std::size_t count_status(const std::string& csv, const std::string& status) {
 TEST_F(LatticeCommands, a_new_cylinder_holds_every_point_within_its_radius) {
   write_file("within.csv", points_round(Bar(), 1 - 4e-6));  // the CSV has six digits
   write_file("beyond.csv", points_round(Bar(), 1.5));
-  for (const char* sectors : {"3", "8"}) {
-    for (const char* layers : {"1", "4"}) {
-      done({"new",          "cylinder", "--from",    "1",     "2",        "3",
-            "--to",         "3",        "5",         "9",     "--radius", "0.7",
-            "--end-radius", "0.4",      "--sectors", sectors, "--layers", layers,
-            "-o",           "bar.json"});
-      EXPECT_EQ(count_status(done({"eval", "bar.json", "--at", "within.csv"}), "inside"), 1368u)
-          << sectors << " sectors, " << layers << " layers";
-    }
+  for (const auto& [sectors, layers] : {std::pair("3", "4"), std::pair("8", "1")}) {
+    done({"new",          "cylinder", "--from",    "1",     "2",        "3",
+          "--to",         "3",        "5",         "9",     "--radius", "0.7",
+          "--end-radius", "0.4",      "--sectors", sectors, "--layers", layers,
+          "-o",           "bar.json"});
+    EXPECT_EQ(count_status(done({"eval", "bar.json", "--at", "within.csv"}), "inside"), 1368u)
+        << sectors << " sectors, " << layers << " layers";
   }
   EXPECT_EQ(count_status(done({"eval", "bar.json", "--at", "beyond.csv"}), "outside"), 1368u);
 }
@@ -216,6 +214,14 @@ TEST_F(LatticeCommands, refine_refuses_levels_out_of_range_and_a_scheme_for_mode
             "fine.json: cannot write cube.obj as '.json': a model keeps its format; name the "
             "output *.obj");
   EXPECT_EQ(files(), (std::vector<std::string>{"box.json", "cube.obj"}));
+}
+
+TEST_F(LatticeCommands, convert_says_that_a_closed_mesh_cannot_be_extruded) {
+  write_file("cube.obj", cube_obj());
+  EXPECT_EQ(refusal({"convert", "cube.obj", "--extrude", "0", "0", "1", "-o", "c.json"}, 2),
+            "extrude: the mesh is closed, only an open surface can be extruded: draw the section "
+            "of the lattice, or cut the mesh open");
+  EXPECT_EQ(files(), std::vector<std::string>{"cube.obj"});
 }
 
 TEST_F(LatticeCommands, a_lattice_that_would_not_be_valid_is_named_by_its_file) {

@@ -1,4 +1,4 @@
-#include "deform/model/number_text.h"
+#include "deform/model/encoded_number.h"
 
 #include <gtest/gtest.h>
 
@@ -10,21 +10,21 @@
 namespace espalier {
 namespace {
 
-TEST(NumberText, is_the_shortest_at_the_precision_of_the_file) {
-  EXPECT_EQ(NumberText(0.1, NumberEncoding::FloatText).view(), "0.1");
-  EXPECT_EQ(NumberText(1.0 / 3.0, NumberEncoding::FloatText).view(), "0.33333334");
-  EXPECT_EQ(NumberText(1.0 / 3.0, NumberEncoding::DoubleText).view(), "0.3333333333333333");
-  EXPECT_EQ(NumberText(-2.0, NumberEncoding::DoubleText).view(), "-2");
+TEST(EncodedNumber, is_the_shortest_at_the_precision_of_the_file) {
+  EXPECT_EQ(EncodedNumber(0.1, NumberEncoding::FloatText).view(), "0.1");
+  EXPECT_EQ(EncodedNumber(1.0 / 3.0, NumberEncoding::FloatText).view(), "0.33333334");
+  EXPECT_EQ(EncodedNumber(1.0 / 3.0, NumberEncoding::DoubleText).view(), "0.3333333333333333");
+  EXPECT_EQ(EncodedNumber(-2.0, NumberEncoding::DoubleText).view(), "-2");
 }
 
-TEST(NumberText, reads_back_as_the_same_number) {
+TEST(EncodedNumber, reads_back_as_the_same_number) {
   std::mt19937_64 random(7);
   for (int i = 0; i < 10000; ++i) {
     const double number =
         std::ldexp(static_cast<double>(random()), static_cast<int>(i % 120) - 120);
-    const std::string as_double(NumberText(number, NumberEncoding::DoubleText).view());
+    const std::string as_double(EncodedNumber(number, NumberEncoding::DoubleText).view());
     EXPECT_EQ(std::strtod(as_double.c_str(), nullptr), number);
-    const std::string as_float(NumberText(number, NumberEncoding::FloatText).view());
+    const std::string as_float(EncodedNumber(number, NumberEncoding::FloatText).view());
     EXPECT_EQ(std::strtof(as_float.c_str(), nullptr), static_cast<float>(number));
   }
 }

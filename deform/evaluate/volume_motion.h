@@ -1,0 +1,57 @@
+#pragma once
+
+/// How the points of a volume move in a frame, laid out for evaluation.
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace espalier {
+
+/// Displacements of a volume's points, which of them are not zero, and which changed last. Real:
+/// float or double, what evaluation calculates in.
+template <class Real>
+class VolumeMotion {
+ public:
+  /// Everything at rest, nothing changed. n_points: of the volume.
+  explicit VolumeMotion(std::size_t n_points);
+  /// As if set from rest.
+  explicit VolumeMotion(std::span<const glm::dvec3> displacements);
+
+  /// The next frame; a point has changed if its displacement is not that of the frame before.
+  /// displacements: #points, as Volume::displacements() makes them. Throws ParameterError for
+  /// another number of them. Allocates nothing. O(#points).
+  void set(std::span<const glm::dvec3> displacements);
+
+  /// Whether any of a patch's points is moved, or changed last.
+  [[nodiscard]] bool is_any_moved(std::span<const std::int32_t> block) const {
+    return has_any(block, kMoved);
+  }
+  [[nodiscard]] bool has_any_changed(std::span<const std::int32_t> block) const {
+    return has_any(block, kChanged);
+  }
+
+  [[nodiscard]] std::span<const glm::dvec3> displacements() const { return displacements_; }
+  /// Four numbers a point: x, y, z of rest minus moved, and 0. A point at rest has +0, so that
+  /// what it is subtracted from keeps its bits, −0 too.
+  [[nodiscard]] const Real* values() const { return values_.data(); }
+
+ private:
+  static constexpr std::uint8_t kMoved = 1;
+  static constexpr std::uint8_t kChanged = 2;
+  [[nodiscard]] bool has_any(std::span<const std::int32_t> block, std::uint8_t flag) const {
+    std::uint8_t flags = 0;
+    for (const std::int32_t point : block) {
+      flags |= flags_[static_cast<std::size_t>(point)];
+    }
+    return (flags & flag) != 0;
+  }
+
+  std::vector<glm::dvec3> displacements_;
+  std::vector<Real> values_;
+  std::vector<std::uint8_t> flags_;
+};
+
+}  // namespace espalier

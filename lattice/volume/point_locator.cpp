@@ -1,0 +1,294 @@
+// Finding points in a volume: a box tree, closed-form guesses, Newton's method, subdivision.
+
+#include "lattice/volume/point_locator.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+
+#include "lattice/core/parallel.h"
+#include "lattice/core/spatial_order.h"
+#include "lattice/volume/bezier_inverse.h"
+
+namespace espalier {
+namespace {
+
+/// Relative to the lattice's diagonal: round-off of an exact solution, and the closed border.
+constexpr double kExact = 1e-14;
+constexpr double kBorder = 1e-9;
+
+constexpr std::size_t kTrilinear = 8;
+
+/// Of a sum of coordinates as large as these.
+double round_off(std::span<const glm::dvec3> points) {
+  const Box box = box_of(points);
+  const glm::dvec3 largest = glm::max(glm::abs(box.min), glm::abs(box.max));
+  return 8 * std::numeric_limits<double>::epsilon() * std::max({largest.x, largest.y, largest.z});
+}
+
+std::size_t n_bezier_points(const Volume& volume, std::size_t i) {
+  const auto [p, q, r] = volume.degree(i);
+  return static_cast<std::size_t>((p + 1) * (q + 1) * (r + 1));
+}
+
+/// A patch's preimage of x, in [0,1]³: in closed form if the patch is affine, else by Newton's
+/// method.
+std::optional<Preimage> invert_in(const PatchFrame& frame, const BezierView& map,
+                                  const glm::dvec3& x, const glm::dvec3& local) {
+  if (frame.is_affine()) {
+    const glm::dvec3 uvw = glm::clamp(local, 0.0, 1.0);
+    return Preimage{uvw, glm::distance(frame.map().value(uvw), x), true, 0};
+  }
+  return invert_from(map, x, frame.guess_from(local));
+}
+
+/// uvw moved onto the faces of the volume's boundary that it lies beyond.
+glm::dvec3 held_by_boundary(const Patch& patch, glm::dvec3 uvw) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (patch.is_on_boundary(2 * axis)) {
+      uvw[axis] = std::max(uvw[axis], 0.0);
+    }
+    if (patch.is_on_boundary(2 * axis + 1)) {
+      uvw[axis] = std::min(uvw[axis], 1.0);
+    }
+  }
+  return uvw;
+}
+
+}  // namespace
+
+std::string_view name_of(PointStatus status) {
+  static constexpr std::array<std::string_view, 4> kNames = {"inside", "border", "outside",
+                                                             "unconverged"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+RestPatches::RestPatches(const Volume& volume, double slack)
+    : volume_(&volume), kept_(volume.n_patches(), -1) {
+  std::size_t n_points = 0;
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    if (const std::size_t n = n_bezier_points(volume, i); n > kTrilinear) {
+      kept_[i] = static_cast<std::int32_t>(first_.size());
+      first_.push_back(n_points);
+      n_points += n;
+    }
+  }
+  points_.resize(n_points);
+  weights_.resize(volume.is_rational() ? n_points : 0);
+  frames_.resize(first_.size());
+  parallel_ranges(kept_.size(), 256, [&](std::size_t begin, std::size_t end) {
+    BezierPatch patch;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (kept_[i] >= 0) {
+        const auto k = static_cast<std::size_t>(kept_[i]);
+        volume.bezier(i, volume.rest_points(), patch);
+        std::copy(patch.points.begin(), patch.points.end(),
+                  points_.begin() + static_cast<std::ptrdiff_t>(first_[k]));
+        std::copy(patch.weights.begin(), patch.weights.end(),
+                  weights_.begin() + static_cast<std::ptrdiff_t>(first_[k]));
+        frames_[k] = PatchFrame(patch, slack, volume.patch(i).reach());
+      }
+    }
+  });
+}
+
+BezierView RestPatches::view(std::size_t i, BezierPatch& scratch) const {
+  if (kept_[i] < 0) {
+    volume_->bezier(i, volume_->rest_points(), scratch);
+    return scratch;
+  }
+  const std::size_t first = first_[static_cast<std::size_t>(kept_[i])];
+  const std::size_t n = n_bezier_points(*volume_, i);
+  const std::span<const double> weights(weights_);
+  return {volume_->degree(i),
+          {&points_[first], n},
+          volume_->patch(i).is_pyramid,
+          weights.empty() ? weights : weights.subspan(first, n)};
+}
+
+/// The search for one point. Its memory is kept from point to point.
+class PointLocator::Query {
+ public:
+  explicit Query(const PointLocator& locator) : locator_(locator), volume_(*locator.volume_) {}
+
+  [[nodiscard]] Location locate(const glm::dvec3& x) {
+    x_ = x;
+    find_candidates();
+    if (candidates_.empty()) {
+      return {};
+    }
+    if (const auto found = search(locator_.exact_, [&](const Map& map) {
+          return invert_in(*map.frame, map.view, x_, map.frame->local(x_));
+        })) {
+      return *found;
+    }
+    may_be_missed_ = false;
+    if (const auto found = by_subdivision(locator_.exact_)) {
+      return *found;
+    }
+    if (const auto found = leaf_within_reach()) {
+      return *found;
+    }
+    if (const auto found = by_subdivision(locator_.border_)) {
+      return *found;
+    }
+    return {may_be_missed_ ? PointStatus::Unconverged : PointStatus::Outside, -1, glm::dvec3(0), 0};
+  }
+
+ private:
+  /// A candidate at rest.
+  struct Map {
+    BezierView view;
+    const PatchFrame* frame;
+  };
+
+  /// The patches that may hold x or lie within the border of it, ascending.
+  void find_candidates() {
+    candidates_.clear();
+    locator_.tree_.visit_overlapping(Box{x_, x_}.grown(locator_.border_), [&](std::size_t patch) {
+      const PatchFrame* frame = locator_.patches_.frame(patch);
+      if (frame == nullptr || frame->may_hold(frame->local(x_))) {
+        candidates_.push_back(static_cast<std::int32_t>(patch));
+      }
+    });
+    std::sort(candidates_.begin(), candidates_.end());
+  }
+
+  [[nodiscard]] Map map_of(std::int32_t candidate) {
+    const auto i = static_cast<std::size_t>(candidate);
+    const BezierView view = locator_.patches_.view(i, patch_);
+    const PatchFrame* frame = locator_.patches_.frame(i);
+    if (frame == nullptr) {
+      frame_ = PatchFrame(view);
+      frame = &frame_;
+    }
+    return {view, frame};
+  }
+
+  /// The first candidate whose preimage of x is within the tolerance.
+  template <class Inverter>
+  [[nodiscard]] std::optional<Location> search(double tolerance, const Inverter& inverter) {
+    for (const std::int32_t candidate : candidates_) {
+      const Map map = map_of(candidate);
+      const auto found = inverter(map);
+      if (found && found->residual <= tolerance) {
+        return location(candidate, map, *found);
+      }
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<Location> by_subdivision(double tolerance) {
+    return search(tolerance, [&](const Map& map) -> std::optional<Preimage> {
+      if (map.frame->is_affine()) {
+        return invert_in(*map.frame, map.view, x_, map.frame->local(x_));
+      }
+      const auto found = invert_by_subdivision(map.view, x_, tolerance);
+      may_be_missed_ = may_be_missed_ || (found && !found->is_converged);
+      return found;
+    });
+  }
+
+  [[nodiscard]] Location location(std::int32_t candidate, const Map& map,
+                                  const Preimage& found) const {
+    const Patch& patch = volume_.patch(static_cast<std::size_t>(candidate));
+    const bool is_border = is_near_boundary(patch, map, found.uvw);
+    return {is_border ? PointStatus::Border : PointStatus::Inside, candidate, found.uvw,
+            found.n_steps};
+  }
+
+  /// Whether the value at uvw is within the border of the volume's boundary.
+  [[nodiscard]] bool is_near_boundary(const Patch& patch, const Map& map,
+                                      const glm::dvec3& uvw) const {
+    std::optional<glm::dvec3> at;
+    for (int face = 0; face < 6; ++face) {
+      const int axis = face / 2;
+      const double step = std::abs(face % 2 - uvw[axis]);
+      if (!patch.is_on_boundary(face) ||
+          (!patch.is_leaf && map.frame->least_distance(axis, step) > 2 * locator_.border_)) {
+        continue;
+      }
+      if (!at) {
+        at = map.view.value(uvw);
+      }
+      glm::dvec3 on_face = uvw;
+      on_face[axis] = face % 2;
+      if (glm::distance(map.view.value(on_face), *at) <= locator_.border_) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// The leaf that x lies least beyond, the lowest of equals, by extrapolating its map.
+  [[nodiscard]] std::optional<Location> leaf_within_reach() {
+    std::optional<Location> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::int32_t candidate : candidates_) {
+      const Patch& patch = volume_.patch(static_cast<std::size_t>(candidate));
+      if (!patch.is_leaf) {
+        continue;
+      }
+      const Map map = map_of(candidate);
+      auto found = invert_from(map.view, x_, map.frame->guess(x_), kLeafReach);
+      if (!found || !(found->residual <= locator_.exact_)) {
+        continue;
+      }
+      const glm::dvec3 uvw = held_by_boundary(patch, found->uvw);
+      if (uvw != found->uvw && !(glm::distance(map.view.value(uvw), x_) <= locator_.border_)) {
+        continue;
+      }
+      found->uvw = uvw;
+      // As a length: leaves along a line are far longer than they are wide.
+      const double beyond = glm::distance(map.view.value(glm::clamp(uvw, 0.0, 1.0)), x_);
+      if (beyond < least) {
+        least = beyond;
+        best = location(candidate, map, *found);
+      }
+    }
+    return best;
+  }
+
+  const PointLocator& locator_;
+  const Volume& volume_;
+  glm::dvec3 x_{0};
+  std::vector<std::int32_t> candidates_;
+  BezierPatch patch_;  // memory for a trilinear candidate, and its frame
+  PatchFrame frame_;
+  bool may_be_missed_ = false;
+};
+
+PointLocator::PointLocator(const Volume& volume)
+    : volume_(&volume),
+      exact_(kExact * volume.diagonal() + round_off(volume.rest_controls())),
+      border_(kBorder * volume.diagonal()),
+      patches_(volume, 2 * border_),
+      tree_(volume.patch_boxes()) {}
+
+Location PointLocator::locate(const glm::dvec3& x) const {
+  return Query(*this).locate(x);
+}
+
+std::vector<Location> PointLocator::locate(std::span<const glm::dvec3> points,
+                                           const Progress& progress) const {
+  constexpr std::size_t kPointsPerUpdate = 1 << 16;
+  const std::vector<std::uint32_t> order = spatial_order(points);
+  std::vector<Location> locations(points.size());
+  for (std::size_t first = 0; first < points.size(); first += kPointsPerUpdate) {
+    const std::size_t n = std::min(kPointsPerUpdate, points.size() - first);
+    parallel_ranges(n, 512, [&](std::size_t begin, std::size_t end) {
+      Query query(*this);
+      for (std::size_t k = first + begin; k < first + end; ++k) {
+        locations[order[k]] = query.locate(points[order[k]]);
+      }
+    });
+    progress.update("embed", static_cast<double>(first + n) / static_cast<double>(points.size()));
+  }
+  return locations;
+}
+
+}  // namespace espalier

@@ -1,0 +1,90 @@
+#pragma once
+
+/// Finding the patch of a volume that holds a point.
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "lattice/core/box_tree.h"
+#include "lattice/core/progress.h"
+#include "lattice/volume/patch_frame.h"
+#include "lattice/volume/volume.h"
+
+namespace espalier {
+
+/// How a point relates to the volume.
+enum class PointStatus : std::uint8_t {
+  Inside,
+  Border,      ///< within 1e-9 of the lattice's diagonal of the volume's boundary, on either side
+  Outside,     ///< stays where it is, or follows the boundary if it is in the fringe
+  Unconverged  ///< a patch may hold it, but no parameters were found; stays where it is
+};
+
+/// "inside", "border", "outside" or "unconverged".
+[[nodiscard]] std::string_view name_of(PointStatus status);
+
+/// Where a volume holds a point.
+struct Location {
+  PointStatus status = PointStatus::Outside;
+  std::int32_t patch = -1;  ///< -1: none holds it
+  glm::dvec3 uvw{0};        ///< in [0,1]³, or within kLeafReach of it in a leaf
+  int n_steps = 0;          ///< of Newton's method in that patch; 0 in an affine one
+};
+
+/// The patches of a volume at rest in Bézier form. Trilinear ones, of which there may be millions,
+/// are made when they are asked for, the others once.
+class RestPatches {
+ public:
+  /// slack: as PatchFrame's. O(#patches).
+  RestPatches(const Volume& volume, double slack);
+
+  /// scratch: memory that the view may use.
+  [[nodiscard]] BezierView view(std::size_t i, BezierPatch& scratch) const;
+
+  /// The frame of a patch that is kept; nothing for a trilinear one.
+  [[nodiscard]] const PatchFrame* frame(std::size_t i) const {
+    return kept_[i] < 0 ? nullptr : &frames_[static_cast<std::size_t>(kept_[i])];
+  }
+
+ private:
+  const Volume* volume_;
+  std::vector<std::int32_t> kept_;  // number among those kept, or -1
+  std::vector<std::size_t> first_;  // of those kept, in points_
+  std::vector<PatchFrame> frames_;
+  std::vector<glm::dvec3> points_;
+  std::vector<double> weights_;  // #points_, or empty
+};
+
+/// Finds points' places in one volume at rest, which must outlive it. Points that several patches
+/// share go to the lowest patch; a point inside is never missed: where Newton's method fails the
+/// patch is subdivided. A point that no patch holds goes to the leaf that it lies least beyond, if
+/// that is within kLeafReach and not across the volume's boundary.
+class PointLocator {
+ public:
+  /// O(#patches log #patches).
+  explicit PointLocator(const Volume& volume);
+
+  [[nodiscard]] const Volume& volume() const { return *volume_; }
+
+  /// x: model units, finite. O(log #patches); does not allocate but where Newton's method fails.
+  [[nodiscard]] Location locate(const glm::dvec3& x) const;
+
+  /// The same for many points, in parallel; the same result for any number of threads. Tells
+  /// `progress` "embed".
+  [[nodiscard]] std::vector<Location> locate(std::span<const glm::dvec3> points,
+                                             const Progress& progress = {}) const;
+
+ private:
+  class Query;
+
+  const Volume* volume_;
+  double exact_;   // residual of an exact solution, a length
+  double border_;  // within which a point is on the border, a length
+  RestPatches patches_;
+  BoxTree tree_;
+};
+
+}  // namespace espalier

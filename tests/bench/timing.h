@@ -1,0 +1,50 @@
+#pragma once
+
+/// Timing and printing for the benchmarks.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "lattice/core/parallel.h"
+
+namespace espalier::bench {
+
+/// With one thread the time of the processor, which other programs hardly disturb; with more the
+/// time that passes.
+inline double now() {
+  timespec time{};
+  ::clock_gettime(thread_count() == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Seconds that `work` takes: the best of `repeats`.
+template <class Work>
+double seconds(const Work& work, int repeats = 3) {
+  double best = 1e300;
+  for (int i = 0; i < repeats; ++i) {
+    const double start = now();
+    work();
+    best = std::min(best, now() - start);
+  }
+  return best;
+}
+
+/// Seconds to copy `bytes` once, out of and into memory that is too large for a cache.
+inline double copy_seconds(std::size_t bytes) {
+  static constexpr std::size_t kBlock = std::size_t{1} << 28;
+  static std::vector<char> from(kBlock, 1);
+  static std::vector<char> to(kBlock, 2);
+  const double a_byte = seconds([] { std::memcpy(to.data(), from.data(), kBlock); }) / kBlock;
+  return a_byte * static_cast<double>(bytes);
+}
+
+inline void print(const std::string& what, double value, const std::string& unit) {
+  fmt::print("  {:<66} {:>9.3g} {}\n", what, value, unit);
+}
+
+}  // namespace espalier::bench
