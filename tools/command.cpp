@@ -14,7 +14,9 @@ const std::vector<Command>& commands() {
       }
     }
     all.push_back(info_command());
+    all.push_back(check_command());
     all.push_back(eval_command());
+    all.push_back(pull_command());
     all.push_back(weights_command());
     all.push_back(render_command());
     return all;

@@ -20,7 +20,7 @@ struct Session {
 };
 
 /// Exit status of the program.
-enum class ExitStatus { Done = 0, Failed = 1, WrongUsage = 2 };
+enum class ExitStatus { Done = 0, Failed = 1, WrongUsage = 2, Undecided = 3 };
 
 struct Command {
   std::string name;
@@ -36,8 +36,10 @@ struct Command {
 // Its parts.
 [[nodiscard]] Command operation_command(const Operation& operation);
 [[nodiscard]] Command info_command();
+[[nodiscard]] Command check_command();
 [[nodiscard]] Command eval_command();
 [[nodiscard]] Command weights_command();
+[[nodiscard]] Command pull_command();
 [[nodiscard]] Command render_command();
 
 }  // namespace espalier::tools

@@ -6,7 +6,7 @@ set -eu
 packages="g++ cmake ninja-build pkg-config ccache
   libosd-dev libglm-dev libfmt-dev nlohmann-json3-dev libcli11-dev libstb-dev
   libepoxy-dev libegl-dev libgl1 libegl1 libegl-mesa0 libgl1-mesa-dri
-  libgtest-dev libgmock-dev"
+  libgtest-dev libgmock-dev libbenchmark-dev"
 
 missing=""
 for package in $packages "$@"; do

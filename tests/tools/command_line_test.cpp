@@ -12,13 +12,13 @@ class CommandLine : public CommandLineTest {};
 
 TEST_F(CommandLine, names_the_commands_when_it_knows_none_of_that_name) {
   EXPECT_EQ(refusal({"bogus"}, 2),
-            "there is no command 'bogus', only: new, convert, refine, bind, deform, info, eval, "
-            "weights, render");
+            "there is no command 'bogus', only: new, convert, refine, bind, deform, info, check, "
+            "eval, pull, weights, render");
   EXPECT_EQ(refusal({"new", "teapot", "-o", "a.json"}, 2),
             "there is no command 'teapot', only: box, cylinder");
   EXPECT_EQ(refusal({}, 2),
-            "a command is missing, one of: new, convert, refine, bind, deform, info, eval, "
-            "weights, render");
+            "a command is missing, one of: new, convert, refine, bind, deform, info, check, "
+            "eval, pull, weights, render");
   EXPECT_EQ(refusal({"new"}, 2), "a command is missing, one of: box, cylinder");
 }
 

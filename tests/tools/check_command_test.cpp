@@ -1,0 +1,96 @@
+/// espalier check: verdicts, witnesses, exit status.
+
+#include "tests/tools/command_line_fixture.h"
+
+namespace espalier::tools {
+namespace {
+
+class CheckCommand : public CommandLineTest {
+ protected:
+  void SetUp() override {
+    CommandLineTest::SetUp();
+    done({"new", "box", "--cells", "8", "8", "8", "--min", "0", "0", "0", "--max", "8", "8", "8",
+          "-o", "box.json"});
+  }
+  /// The report and the exit status.
+  static Json report(const std::vector<std::string>& words, int status) {
+    std::vector<std::string> all = {"check", "--json"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome outcome = run(all);
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    return Json::parse(outcome.out);
+  }
+};
+
+constexpr std::size_t kMiddle = 4 + 9 * (4 + 9 * 4);
+
+TEST_F(CheckCommand, certifies_a_lattice_at_rest) {
+  const Json json = report({"box.json"}, 0);
+  EXPECT_EQ(json["valid"], true);
+  EXPECT_EQ(json["local"], "certified");
+  EXPECT_EQ(json["boundary"], "simple");
+  EXPECT_EQ(json["injective"], "certified");
+  EXPECT_EQ(json["patches"], 512);
+  EXPECT_FALSE(json.contains("largest_step"));
+}
+
+TEST_F(CheckCommand, gives_witnesses_of_a_fold) {
+  drag("box.json", "folded.json", kMiddle, {3.5, 0, 0});
+  const Json json = report({"folded.json"}, 1);
+  EXPECT_EQ(json["local"], "folded");
+  EXPECT_EQ(json["injective"], "folded");
+  ASSERT_EQ(json["folds"].size(), 4u);  // round the line that the point was moved along
+  for (const Json& fold : json["folds"]) {
+    EXPECT_NEAR(point_of(fold["rest"]).x, 4.75, 1e-12);
+    // 1 − 3.5 · B'(3/4) · B(0)², B' = 2x − 3/2 x².
+    EXPECT_NEAR(fold["determinant"].get<double>(), 1 - 3.5 * (1.5 - 27. / 32) * 4 / 9, 1e-12);
+  }
+  EXPECT_EQ(
+      report({"folded.json", "--drag", std::to_string(kMiddle) + "=1,0,0"}, 1)["largest_step"], 0);
+}
+
+TEST_F(CheckCommand, tells_the_largest_step_of_a_drag) {
+  const std::string index = std::to_string(kMiddle);
+  const Json json = report({"box.json", "--drag", index + "=0,2,0"}, 0);
+  EXPECT_LE(json["largest_step"].get<double>(), 27.0 / 16);
+  EXPECT_GE(json["largest_step"].get<double>(), 27.0 / 16 * (1 - 1e-4));
+  std::vector<std::string> all = {"box.json"};
+  for (int i = 0; i < 729; ++i) {
+    all.insert(all.end(), {"--drag", std::to_string(i) + "=0,2,0"});
+  }
+  EXPECT_TRUE(report(all, 0)["largest_step"].is_null());  // a translation
+}
+
+TEST_F(CheckCommand, leaves_a_moved_boundary_undecided) {
+  drag("box.json", "moved.json", 0, {-0.5, 0, 0});
+  const Json json = report({"moved.json"}, 3);
+  EXPECT_EQ(json["local"], "certified");
+  EXPECT_EQ(json["boundary"], "undecided");
+  EXPECT_EQ(json["injective"], "undecided");
+}
+
+TEST_F(CheckCommand, refuses_drags_that_name_no_point_or_vector) {
+  EXPECT_EQ(refusal({"check", "box.json", "--drag", "3=1,nan,2"}, 2),
+            "--drag is '3=1,nan,2', must be INDEX=x,y,z with three finite numbers");
+  EXPECT_EQ(refusal({"check", "box.json", "--drag", "3=1,2"}, 2),
+            "--drag is '3=1,2', must be INDEX=x,y,z with three finite numbers");
+  EXPECT_EQ(refusal({"check", "box.json", "--drag", "729=1,0,2"}, 2),
+            "--drag names point 729 of 729 control points, counted from 0");
+  EXPECT_EQ(refusal({"check", "box.json", "--drag", "7=1,0,2", "--drag", "7=1,0,2"}, 2),
+            "--drag names point 7 twice: give one vector for each");
+  EXPECT_EQ(refusal({"check", "box.json", "--drag", "7=0,0,0"}, 2),
+            "--drag moves nothing: give a vector that is not zero");
+}
+
+TEST_F(CheckCommand, lists_the_defects_of_an_invalid_lattice) {
+  Json json = read_json("box.json");
+  json["vertices"][kMiddle] = {6.5, 4, 4};
+  write_json("bad.json", json);
+  const Json found = report({"bad.json"}, 1);
+  EXPECT_EQ(found["valid"], false);
+  EXPECT_FALSE(found["defects"].empty());
+  EXPECT_FALSE(found.contains("local"));
+}
+
+}  // namespace
+}  // namespace espalier::tools

@@ -1,0 +1,237 @@
+/// espalier check: whether a lattice is valid and its pose folds space, and how far a drag may go.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "deform/injectivity/injectivity.h"
+#include "deform/model/model_file.h"
+#include "deform/scene/bind.h"
+#include "deform/scene/indexed_vector.h"
+#include "lattice/core/error.h"
+#include "lattice/io/lattice_file.h"
+#include "lattice/topology/validate.h"
+#include "tools/command.h"
+
+namespace espalier::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Steps that move a point farther than this many diagonals of the lattice count as unbounded.
+constexpr double kFarthest = 1e6;
+
+/// All that is found out.
+struct CheckReport {
+  std::vector<std::string> defects;
+  LocalInjectivity local;
+  bool is_boundary_at_rest = false;
+  std::optional<SafeStep> step;  // of the drag
+  bool is_bounded = true;
+};
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Certified:
+      return "certified";
+    case Verdict::Folded:
+      return "folded";
+    default:
+      return "undecided";
+  }
+}
+
+Verdict injective_of(const CheckReport& report) {
+  const bool is_open = report.local.verdict == Verdict::Certified && !report.is_boundary_at_rest;
+  return is_open ? Verdict::Undecided : report.local.verdict;
+}
+
+Json json_of(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Json json_of(const CheckReport& report) {
+  Json json = {{"valid", report.defects.empty()}, {"defects", report.defects}};
+  if (!report.defects.empty()) {
+    return json;
+  }
+  json["local"] = name_of(report.local.verdict);
+  json["boundary"] = report.is_boundary_at_rest ? "simple" : "undecided";
+  json["injective"] = name_of(injective_of(report));
+  json["patches"] = report.local.n_patches;
+  json["folds"] = Json::array();
+  for (const Fold& fold : report.local.folds) {
+    json["folds"].push_back({{"patch", fold.patch},
+                             {"uvw", json_of(fold.uvw)},
+                             {"rest", json_of(fold.rest)},
+                             {"determinant", fold.determinant}});
+  }
+  json["undecided_boxes"] = Json::array();
+  for (const UndecidedBox& box : report.local.undecided) {
+    json["undecided_boxes"].push_back(
+        {{"patch", box.patch}, {"low", json_of(box.box.low)}, {"high", json_of(box.box.high)}});
+  }
+  if (report.step) {
+    json["largest_step"] = report.is_bounded ? Json(report.step->step) : Json();
+    json["largest_step_is_tight"] = report.step->is_tight;
+  }
+  return json;
+}
+
+std::string text_of(const std::string& path, const CheckReport& report) {
+  if (!report.defects.empty()) {
+    std::string text = fmt::format("{}: invalid\n", path);
+    for (const std::string& defect : report.defects) {
+      text += "  " + defect + "\n";
+    }
+    return text;
+  }
+  std::string text = fmt::format(
+      "{}: valid\n  local: {} ({} patches)\n  boundary: {}\n  injective: {}\n", path,
+      name_of(report.local.verdict), report.local.n_patches,
+      report.is_boundary_at_rest ? "simple" : "undecided", name_of(injective_of(report)));
+  for (const Fold& fold : report.local.folds) {
+    text += fmt::format("  folded at rest point ({}, {}, {}): determinant {}\n", fold.rest.x,
+                        fold.rest.y, fold.rest.z, fold.determinant);
+  }
+  if (!report.local.undecided.empty()) {
+    text += fmt::format("  undecided in {} boxes\n", report.local.undecided.size());
+  }
+  if (report.step) {
+    text += report.is_bounded ? fmt::format("  largest step: {}\n", report.step->step)
+                              : "  largest step: unbounded\n";
+  }
+  return text;
+}
+
+/// Whether no patch with a face on the boundary moves: then the boundary is as simple as at rest.
+bool is_boundary_at_rest(const Volume& volume, std::span<const glm::dvec3> pose) {
+  const std::vector<glm::dvec3> moves = volume.displacements(pose);
+  for (std::size_t i = 0; i < volume.n_patches(); ++i) {
+    const auto block = volume.block(i);
+    if (volume.patch(i).boundary_faces != 0 &&
+        std::any_of(block.begin(), block.end(), [&](std::int32_t p) {
+          return moves[static_cast<std::size_t>(p)] != glm::dvec3(0);
+        })) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The patches that hold a point of the model.
+std::vector<std::int32_t> patches_of(const Volume& volume, const Model& model,
+                                     const Progress& progress) {
+  std::vector<std::int32_t> patches = embed(volume, model.points(), progress).patches;
+  patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
+  return patches;
+}
+
+void add_step(const InjectivityCheck& check, std::span<const glm::dvec3> pose,
+              const std::vector<std::string>& words, CheckReport& report) {
+  std::vector<glm::dvec3> motion(pose.size(), glm::dvec3(0));
+  double largest = 0;
+  for (const IndexedVector& drag :
+       parse_indexed_vectors("drag", words, pose.size(), "control points")) {
+    motion[drag.index] = drag.vector;
+    largest = std::max(largest, glm::length(drag.vector));
+  }
+  if (largest == 0) {
+    throw ParameterError("'drag' moves nothing: give a vector that is not zero");
+  }
+  if (report.local.verdict == Verdict::Folded) {
+    report.step = SafeStep();  // no way is safe: the folds are listed
+    return;
+  }
+  const double most = kFarthest * check.volume().diagonal() / largest;
+  report.step = check.largest_step(pose, motion, {.most_step = most});
+  report.is_bounded = report.step->step < most;
+}
+
+ExitStatus status_of(const CheckReport& report) {
+  if (!report.defects.empty()) {
+    return ExitStatus::Failed;
+  }
+  switch (injective_of(report)) {
+    case Verdict::Certified:
+      return ExitStatus::Done;
+    case Verdict::Folded:
+      return ExitStatus::Failed;
+    default:
+      return ExitStatus::Undecided;
+  }
+}
+
+CheckReport check_lattice(const Arguments& arguments, const Session& session) {
+  const std::string& path = arguments.text("lattice");
+  CheckReport report;
+  RawLattice raw = read_raw_lattice(path);
+  for (const Defect& defect : validate(raw.polyhedra, raw.rest, session.progress)) {
+    report.defects.push_back(defect.message);
+  }
+  if (!report.defects.empty()) {
+    return report;
+  }
+  const SubdivisionLattice lattice = build_lattice(std::move(raw), path, session.progress);
+  const auto volume =
+      std::make_shared<const Volume>(freeze(lattice, arguments.text("freeze"), session.progress));
+  const InjectivityCheck check(volume);
+  const auto pose = lattice.posed_points();
+  if (arguments.has("model")) {
+    const Model model = read_model(arguments.text("model"));
+    report.local = check.local(pose, patches_of(*volume, model, session.progress));
+  } else {
+    report.local = check.local(pose);
+  }
+  report.is_boundary_at_rest = is_boundary_at_rest(*volume, pose);
+  if (arguments.has("drag")) {
+    add_step(check, pose, arguments.texts("drag"), report);
+  }
+  return report;
+}
+
+ExitStatus run(const Arguments& arguments, const Session& session) {
+  const CheckReport report = check_lattice(arguments, session);
+  if (!session.is_quiet) {
+    const std::string text =
+        session.is_json ? json_of(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n"
+                        : text_of(arguments.text("lattice"), report);
+    std::fputs(text.c_str(), stdout);
+  }
+  return status_of(report);
+}
+
+}  // namespace
+
+Command check_command() {
+  return {"check",
+          "Tell whether a lattice's pose folds space anywhere, and how far a drag may go",
+          {{.name = "lattice",
+            .type = ParameterType::Path,
+            .help = "the lattice with its pose (.json, .ovm)",
+            .is_required = true,
+            .is_positional = true},
+           {.name = "model",
+            .type = ParameterType::Path,
+            .help = "check only the patches that hold points of this model (default: all)"},
+           {.name = "drag",
+            .type = ParameterType::Text,
+            .help = "INDEX=dx,dy,dz, a control point and how it moves from the pose: tells the "
+                    "largest t for which moving by t times that stays free of folds; may repeat, "
+                    "then all move together",
+            .is_list = true},
+           {.name = "freeze",
+            .type = ParameterType::Text,
+            .help = "adaptive[:TOLERANCE], or uniform:N, the lattice refined N times (default "
+                    "adaptive, 1e-5 of the lattice's diagonal)",
+            .fallback = Value(std::string("adaptive"))}},
+          run};
+}
+
+}  // namespace espalier::tools
