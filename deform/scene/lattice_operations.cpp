@@ -176,7 +176,7 @@ std::vector<Operation> lattice_operations() {
          .type = Type::ModelOrLattice,
          .help =
              "a surface mesh (.obj), every face of which becomes a stack of cells; or a lattice "
-             "(.json, .ovm)",
+             "(.json, .ovm) or a volume mesh (.mesh, .vtk, .msh)",
          .is_required = true,
          .is_positional = true},
         {.name = "extrude",
