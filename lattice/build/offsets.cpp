@@ -25,6 +25,30 @@ double corner_angle(std::span<const glm::dvec3> points, std::span<const std::int
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
+/// The smallest cosine between a direction and some normals.
+double smallest_cosine(const glm::dvec3& direction, std::span<const glm::dvec3> normals) {
+  double smallest = 1;
+  for (const glm::dvec3& normal : normals) {
+    smallest = std::min(smallest, glm::dot(direction, normal));
+  }
+  return smallest;
+}
+
+/// The direction whose largest angle with the normals is least, to about a degree: steps towards
+/// the farthest normal, each shorter than the last.
+glm::dvec3 middle_of(std::span<const glm::dvec3> normals, const glm::dvec3& start) {
+  constexpr int kSteps = 200;
+  glm::dvec3 middle = start;
+  for (int step = 2; step < kSteps; ++step) {
+    const auto farthest = std::min_element(normals.begin(), normals.end(),
+                                           [&](const glm::dvec3& a, const glm::dvec3& b) {
+                                             return glm::dot(middle, a) < glm::dot(middle, b);
+                                           });
+    middle += (*farthest - middle) / static_cast<double>(step);
+  }
+  return unit_vector(middle);
+}
+
 }  // namespace
 
 glm::dvec3 unit_vector(const glm::dvec3& vector) {
@@ -47,6 +71,7 @@ std::vector<glm::dvec3> offsets_along_normals(std::span<const glm::dvec3> points
                                               double distance) {
   std::vector<glm::dvec3> sums(points.size(), glm::dvec3(0));
   std::vector<double> angles(points.size(), 0);
+  std::vector<std::vector<glm::dvec3>> normals(points.size());
   for (std::size_t face = 0; face < faces.n_rows(); ++face) {
     const auto loop = faces[face];
     const glm::dvec3 normal = unit_vector(area_vector(points, loop));
@@ -54,6 +79,7 @@ std::vector<glm::dvec3> offsets_along_normals(std::span<const glm::dvec3> points
       const double angle = corner_angle(points, loop, i);
       sums[static_cast<std::size_t>(loop[i])] += angle * normal;
       angles[static_cast<std::size_t>(loop[i])] += angle;
+      normals[static_cast<std::size_t>(loop[i])].push_back(normal);
     }
   }
   for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -62,7 +88,13 @@ std::vector<glm::dvec3> offsets_along_normals(std::span<const glm::dvec3> points
       if (!(length > kCancelled * angles[i])) {
         throw LatticeError(fmt::format("vertex {}: the normals of its faces cancel", i));
       }
-      sums[i] *= distance * std::min(angles[i] / length, kLongestMiter) / length;
+      glm::dvec3 direction = sums[i] / length;
+      double miter = angles[i] / length;
+      if (smallest_cosine(direction, normals[i]) < 1 / kLongestMiter) {
+        direction = middle_of(normals[i], direction);
+        miter = 1 / std::max(smallest_cosine(direction, normals[i]), 1 / kLongestMiter);
+      }
+      sums[i] = direction * (distance * std::min(miter, kLongestMiter));
     }
   }
   return sums;

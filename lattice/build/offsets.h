@@ -13,7 +13,8 @@ namespace espalier {
 
 /// How far each point moves when every face moves by `distance` along its normal: along the mean of
 /// the normals at the point, weighted by the faces' angles there [TW98], so far that flat faces
-/// keep their distance, but at most four times as far. Zero at points that no face uses.
+/// keep their distance, but at most four times as far. Where that mean leaves a face behind or
+/// nearly so, the direction nearest to all normals replaces it. Zero at points that no face uses.
 /// points: model units; faces: loops of points, all counter-clockwise seen from the side the
 /// normals point to. Throws LatticeError where the normals at a point cancel.
 [[nodiscard]] std::vector<glm::dvec3> offsets_along_normals(

@@ -179,6 +179,28 @@ TEST(Thicken, of_a_flat_mesh_is_the_extruded_mesh_but_for_points_no_face_uses) {
   }
 }
 
+TEST(Thicken, leaves_no_face_behind_at_a_point_with_many_faces_on_one_side) {
+  // A fan of 12 slivers that all look up, and one wall under them: the mean of the normals,
+  // weighted by angle, points away from the wall.
+  std::vector<glm::dvec3> points = {{0, 0, 0}};
+  Rows faces;
+  for (int i = 0; i <= 12; ++i) {
+    const double angle = std::numbers::pi * i / 12;
+    points.emplace_back(std::cos(angle), std::sin(angle), 0);
+    if (i > 0) {
+      faces.push_back(std::array{0, i, i + 1});
+    }
+  }
+  points.emplace_back(0.3, 0.8, -1);
+  faces.push_back(std::array{0, 14, 1});
+  const CellMesh thick = thicken(points, faces, 0.01, 1);
+  EXPECT_EQ(defect_of(thick), "");
+  const glm::dvec3 offset = thick.points[15] - thick.points[0];
+  const glm::dvec3 wall = glm::normalize(glm::cross(points[14], points[1]));
+  EXPECT_GT(glm::dot(offset, wall), 0);
+  EXPECT_GT(offset.z, 0);
+}
+
 TEST(Thicken, names_what_it_refuses) {
   const CubeSurface cube;
   EXPECT_EQ(complaint([&] { return thicken(cube.points, cube.faces, 0, 1); }),
