@@ -54,6 +54,14 @@ Json valences(const CellComplex& complex) {
           {"faces_of_cells", histogram(cells)}};
 }
 
+/// Where cells meet only in an edge or a vertex.
+Json touching(const CellComplex& complex) {
+  const Sharpness sharp = with_touching_elements(complex, smooth_sharpness(complex));
+  const auto is_sharp = [](float value) { return value > 0; };
+  return {{"edges", std::count_if(sharp.edges.begin(), sharp.edges.end(), is_sharp)},
+          {"vertices", std::count_if(sharp.vertices.begin(), sharp.vertices.end(), is_sharp)}};
+}
+
 Json tags(const Sharpness& sharpness) {
   const auto is_infinite = [](float s) { return s >= kInfiniteSharpness; };
   const auto is_semi = [](float s) { return s > 0 && s < kInfiniteSharpness; };
@@ -74,6 +82,7 @@ Json lattice_json(const SubdivisionLattice& lattice) {
                {"faces", complex.n_faces()},
                {"cells", complex.n_cells()},
                {"valences", valences(complex)},
+               {"non_manifold", touching(complex)},
                {"tags", tags(lattice.sharpness)},
                {"has_pose", !lattice.pose.empty()},
                {"valid", true},
@@ -132,12 +141,14 @@ std::string lattice_text(const SubdivisionLattice& lattice) {
       "  faces at inner edges     {}\n"
       "  faces at boundary edges  {}\n"
       "  faces of cells           {}\n"
+      "  cells meet in an edge only at {} edges, in a vertex only at {} vertices\n"
       "  sharp edges {}, semi-sharp {}; corners {}, semi-sharp {}\n"
       "  box {}  to  {}\n"
       "  valid\n",
       name_of(lattice.scheme), lattice.pose.empty() ? "" : ", posed", counts_text(*lattice.complex),
       histogram_text(valence["faces_at_inner_edges"]),
       histogram_text(valence["faces_at_boundary_edges"]), histogram_text(valence["faces_of_cells"]),
+      json["non_manifold"]["edges"].dump(), json["non_manifold"]["vertices"].dump(),
       tag["sharp_edges"].dump(), tag["semi_sharp_edges"].dump(), tag["corners"].dump(),
       tag["semi_sharp_vertices"].dump(), text_of(bounds.min), text_of(bounds.max));
 }

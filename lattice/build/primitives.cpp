@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <numbers>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "lattice/build/extrude.h"
+#include "lattice/build/section.h"
 #include "lattice/core/error.h"
 #include "lattice/core/text_scanner.h"
 
@@ -20,26 +17,6 @@ constexpr double kMostCells = 20e6;
 bool is_coordinate(const glm::dvec3& point) {
   const auto is_good = [](double x) { return std::abs(x) <= kLargestCoordinate; };
   return is_good(point.x) && is_good(point.y) && is_good(point.z);
-}
-
-/// The smallest distance from the centre of the closed uniform cubic B-spline whose control points
-/// are the corners of a regular n-gon of radius 1: at its knots or half-way between them.
-double inner_radius_of_ring(int n) {
-  const double step = 2 * std::numbers::pi / n;
-  const double at_knot = (4 + 2 * std::cos(step)) / 6;
-  const double between = (46 * std::cos(step / 2) + 2 * std::cos(3 * step / 2)) / 48;
-  return std::min(at_knot, between);
-}
-
-/// Two unit vectors that span the plane across `axis`.
-std::array<glm::dvec3, 2> plane_across(const glm::dvec3& axis) {
-  const glm::dvec3 size = glm::abs(axis);
-  glm::dvec3 other(1, 0, 0);
-  if (size.x > size.y || size.x > size.z) {
-    other = size.y <= size.z ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
-  }
-  const glm::dvec3 first = glm::normalize(glm::cross(axis, other));
-  return {first, glm::cross(axis, first)};
 }
 
 void check(const CylinderOptions& options) {
@@ -115,27 +92,9 @@ CellMesh make_box(const std::array<int, 3>& cells, const glm::dvec3& min, const 
 
 CellMesh make_cylinder(const CylinderOptions& options) {
   check(options);
-  const glm::dvec3 axis = options.to - options.from;
-  const auto [right, up] = plane_across(glm::normalize(axis));
-  const auto n = static_cast<std::size_t>(options.sectors);
-  std::vector<glm::dvec3> wheel = {glm::dvec3(0)};
-  CompressedRows<std::int32_t> wedges;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
-    wheel.push_back(right * std::cos(angle) + up * std::sin(angle));
-    const std::array<std::int32_t, 3> wedge = {0, static_cast<std::int32_t>(i + 1),
-                                               static_cast<std::int32_t>((i + 1) % n + 1)};
-    wedges.push_back(wedge);
-  }
-  CellMesh mesh = extrude(wheel, wedges, axis, options.layers);
-  const double ring = 1 / inner_radius_of_ring(options.sectors);
   const double end_radius = options.end_radius > 0 ? options.end_radius : options.radius;
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    const double t = static_cast<double>(i / (n + 1)) / options.layers;
-    const double radius = ring * (options.radius * (1 - t) + end_radius * t);
-    mesh.points[i] = options.from * (1 - t) + options.to * t + wheel[i % (n + 1)] * radius;
-  }
-  return mesh;
+  return sweep_straight(wheel_section(1, options.sectors), options.from, options.to,
+                        {options.radius, end_radius}, options.layers);
 }
 
 }  // namespace espalier

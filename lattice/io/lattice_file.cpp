@@ -4,22 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <span>
 #include <utility>
 
 #include "lattice/core/error.h"
 #include "lattice/core/file.h"
 #include "lattice/core/text_scanner.h"
+#include "lattice/io/gmsh_reader.h"
 #include "lattice/io/json_lattice.h"
+#include "lattice/io/medit_reader.h"
 #include "lattice/io/ovm_reader.h"
 #include "lattice/io/ovm_writer.h"
+#include "lattice/io/vtk_legacy_reader.h"
 #include "lattice/topology/validate.h"
 
 namespace espalier {
 namespace {
 
-enum class Format { Json, Ovm };
+enum class Format { Json, Ovm, Medit, Vtk, Gmsh };
 
 bool ends_with_ignoring_case(std::string_view text, std::string_view end) {
   return text.size() >= end.size() &&
@@ -34,10 +36,28 @@ Format format_of(const std::string& path) {
   if (ends_with_ignoring_case(path, ".ovm")) {
     return Format::Ovm;
   }
+  if (ends_with_ignoring_case(path, ".mesh")) {
+    return Format::Medit;
+  }
+  if (ends_with_ignoring_case(path, ".vtk")) {
+    return Format::Vtk;
+  }
+  if (ends_with_ignoring_case(path, ".msh")) {
+    return Format::Gmsh;
+  }
   if (ends_with_ignoring_case(path, ".ovmb")) {
     throw FileError(path, "is binary OpenVolumeMesh; lattice files are .json or ASCII .ovm");
   }
   throw FileError(path, "unknown kind of lattice file; lattice files end in .json or .ovm");
+}
+
+/// The format to write a file in. Throws FileError for those that are only read.
+Format output_format_of(const std::string& path) {
+  const Format format = format_of(path);
+  if (format != Format::Json && format != Format::Ovm) {
+    throw FileError(path, "volume meshes are only read; lattices are written to .json or .ovm");
+  }
+  return format;
 }
 
 /// Runs `work`; a LatticeError that leaves it begins with the path.
@@ -48,18 +68,6 @@ auto naming_file(const std::string& path, const Work& work) {
   } catch (const LatticeError& error) {
     throw LatticeError(path + ": " + error.what());
   }
-}
-
-std::shared_ptr<const CellComplex> build_complex(Polyhedra polyhedra,
-                                                 std::span<const glm::dvec3> rest,
-                                                 const Progress& progress) {
-  auto complex = std::make_shared<const CellComplex>(std::move(polyhedra));
-  std::vector<Defect> defects = find_edge_defects(*complex);
-  if (defects.empty()) {
-    defects = find_geometric_defects(*complex, rest, progress);
-  }
-  throw_if_defective(defects);
-  return complex;
 }
 
 void set_sharp_edges(const CellComplex& complex, const std::vector<SharpEdge>& sharp_edges,
@@ -163,7 +171,19 @@ std::optional<Scheme> scheme_named(std::string_view name) {
 RawLattice read_raw_lattice(const std::string& path) {
   const Format format = format_of(path);
   const std::string text = read_file(path);
-  return format == Format::Json ? parse_json_lattice(path, text) : parse_ovm(path, text);
+  switch (format) {
+    case Format::Json:
+      return parse_json_lattice(path, text);
+    case Format::Ovm:
+      return parse_ovm(path, text);
+    case Format::Medit:
+      return parse_medit(path, text);
+    case Format::Vtk:
+      return parse_vtk_legacy(path, text);
+    case Format::Gmsh:
+      return parse_gmsh(path, text);
+  }
+  throw FileError(path, "unknown kind of lattice file");
 }
 
 SubdivisionLattice build_lattice(RawLattice raw, const std::string& path,
@@ -175,7 +195,7 @@ SubdivisionLattice build_lattice(RawLattice raw, const std::string& path,
                                      raw.rest.size(), raw.pose.size(), n_vertices));
     }
     SubdivisionLattice lattice;
-    lattice.complex = build_complex(std::move(raw.polyhedra), raw.rest, progress);
+    lattice.complex = valid_complex(std::move(raw.polyhedra), raw.rest, progress);
     lattice.rest = std::move(raw.rest);
     lattice.pose = std::move(raw.pose);
     lattice.scheme = raw.scheme;
@@ -192,12 +212,14 @@ SubdivisionLattice build_lattice(RawLattice raw, const std::string& path,
 }
 
 bool is_lattice_path(const std::string& path) {
-  return ends_with_ignoring_case(path, ".json") || ends_with_ignoring_case(path, ".ovm") ||
-         ends_with_ignoring_case(path, ".ovmb");
+  static constexpr std::array<std::string_view, 6> kEnds = {".json", ".ovm", ".ovmb",
+                                                            ".mesh", ".vtk", ".msh"};
+  return std::any_of(kEnds.begin(), kEnds.end(),
+                     [&](std::string_view end) { return ends_with_ignoring_case(path, end); });
 }
 
 void require_lattice_path(const std::string& path) {
-  static_cast<void>(format_of(path));
+  static_cast<void>(output_format_of(path));
 }
 
 SubdivisionLattice read_lattice(const std::string& path, const Progress& progress) {
@@ -205,7 +227,7 @@ SubdivisionLattice read_lattice(const std::string& path, const Progress& progres
 }
 
 void write_lattice(const std::string& path, const SubdivisionLattice& lattice) {
-  const Format format = format_of(path);
+  const Format format = output_format_of(path);
   const std::string text = naming_file(path, [&] {
     check_writable(lattice);
     return format == Format::Json ? json_text(lattice) : ovm_text(lattice);

@@ -1,7 +1,8 @@
 #pragma once
 
 /// Subdivision lattices in and out of files: JSON (.json, see json_lattice.h) and OpenVolumeMesh
-/// ASCII (.ovm, see ovm_reader.h).
+/// ASCII (.ovm, see ovm_reader.h). Volume meshes are read too: MEDIT (.mesh), legacy VTK (.vtk) and
+/// Gmsh 4.1 (.msh).
 
 #include <array>
 #include <cstdint>
@@ -60,8 +61,8 @@ struct RawLattice {
 /// LatticeError for a lattice whose arrays do not match or hold no finite numbers.
 void write_lattice(const std::string& path, const SubdivisionLattice& lattice);
 
-/// Whether a path's extension is that of lattice files: .json or .ovm (.ovmb counts too, to be
-/// refused with a reason).
+/// Whether a path's extension is that of lattice files or volume meshes: .json, .ovm, .mesh, .vtk,
+/// .msh (.ovmb counts too, to be refused with a reason).
 [[nodiscard]] bool is_lattice_path(const std::string& path);
 
 /// Throws FileError unless a lattice can be written to a file of this name.

@@ -10,13 +10,18 @@
 #include "lattice/build/extrude.h"
 #include "lattice/build/primitives.h"
 #include "lattice/core/error.h"
+#include "lattice/osd/refine_surface.h"
 #include "lattice/subdivision/freeze.h"
+#include "lattice/subdivision/refine.h"
 #include "lattice/topology/cell_complex.h"
+#include "lattice/topology/validate.h"
+#include "tests/lattice/mesh_shape.h"
 #include "tests/support/families.h"
 
 namespace espalier {
 namespace {
 
+using test::volume_of;
 using Rows = CompressedRows<std::int32_t>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -47,16 +52,6 @@ std::pair<std::vector<std::set<VertexId>>, std::set<std::set<VertexId>>> shape_o
     faces.emplace(vertices.begin(), vertices.end());
   }
   return {cells, faces};
-}
-
-double volume_of(const CellMesh& mesh) {
-  double sum = 0;
-  for (std::size_t cell = 0; cell < mesh.cells.cells.n_rows(); ++cell) {
-    const double volume = signed_volume(mesh.cells, cell, mesh.points);
-    EXPECT_GT(volume, 0);
-    sum += volume;
-  }
-  return sum;
 }
 
 TEST(Extrude, puts_vertex_i_of_step_l_at_i_plus_l_n) {
@@ -141,6 +136,129 @@ TEST(Extrude, names_what_it_refuses) {
             "of the lattice, or cut the mesh open");
   EXPECT_EQ(with(Rows::uniform(30000, std::vector<std::int32_t>(30000, 0)), {0, 0, 1}, 10000),
             "extrude: more than 200 million faces; use fewer layers");
+}
+
+/// The unit cube's boundary, faces counter-clockwise seen from outside.
+struct CubeSurface {
+  std::vector<glm::dvec3> points = make_box({1, 1, 1}, glm::dvec3(0), glm::dvec3(1)).points;
+  Rows faces = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+};
+
+std::string defect_of(const CellMesh& mesh) {
+  const std::vector<Defect> defects = validate(mesh.cells, mesh.points);
+  return defects.empty() ? "" : defects.front().message;
+}
+
+TEST(Thicken, of_a_cube_is_a_shell_of_even_thickness_to_either_side) {
+  const CubeSurface cube;
+  for (const double thickness : {0.5, -0.25}) {
+    const CellMesh shell = thicken(cube.points, cube.faces, thickness, 2);
+    EXPECT_EQ(defect_of(shell), "");
+    ASSERT_EQ(shell.cells.cells.n_rows(), 12u);
+    EXPECT_NEAR(volume_of(shell), std::abs(std::pow(1 + 2 * thickness, 3) - 1), 1e-14);
+    for (std::size_t i = 0; i < 8; ++i) {
+      EXPECT_EQ(shell.points[i], cube.points[i]);
+      const glm::dvec3 out = cube.points[i] * 2.0 - 1.0;
+      EXPECT_LT(glm::distance(shell.points[i + 8], cube.points[i] + out * thickness / 2.0), 1e-15);
+      EXPECT_LT(glm::distance(shell.points[i + 16], cube.points[i] + out * thickness), 1e-15);
+    }
+  }
+}
+
+TEST(Thicken, of_a_flat_mesh_is_the_extruded_mesh_but_for_points_no_face_uses) {
+  test::Section section = test::flower_section(5);
+  section.points.insert(section.points.begin(), glm::dvec3(7));
+  for (std::size_t face = 0; face < section.faces.n_rows(); ++face) {
+    for (std::int32_t& point : section.faces[face]) {
+      ++point;
+    }
+  }
+  const CellMesh thick = thicken(section.points, section.faces, 0.75, 3);
+  const CellMesh extruded = extrude(section.points, section.faces, {0, 0, 0.75}, 3);
+  EXPECT_EQ(thick.cells.cells.values().size(), extruded.cells.cells.values().size());
+  ASSERT_EQ(thick.points.size(), extruded.points.size());
+  for (std::size_t i = 0; i < thick.points.size(); ++i) {
+    EXPECT_LT(glm::distance(thick.points[i], extruded.points[i]), 1e-15);
+  }
+}
+
+TEST(Thicken, leaves_no_face_behind_at_a_point_with_many_faces_on_one_side) {
+  // A fan of 12 slivers that all look up, and one wall under them: the mean of the normals,
+  // weighted by angle, points away from the wall.
+  std::vector<glm::dvec3> points = {{0, 0, 0}};
+  Rows faces;
+  for (int i = 0; i <= 12; ++i) {
+    const double angle = std::numbers::pi * i / 12;
+    points.emplace_back(std::cos(angle), std::sin(angle), 0);
+    if (i > 0) {
+      faces.push_back(std::array{0, i, i + 1});
+    }
+  }
+  points.emplace_back(0.3, 0.8, -1);
+  faces.push_back(std::array{0, 14, 1});
+  const CellMesh thick = thicken(points, faces, 0.01, 1);
+  EXPECT_EQ(defect_of(thick), "");
+  const glm::dvec3 offset = thick.points[15] - thick.points[0];
+  const glm::dvec3 wall = glm::normalize(glm::cross(points[14], points[1]));
+  EXPECT_GT(glm::dot(offset, wall), 0);
+  EXPECT_GT(offset.z, 0);
+}
+
+TEST(Thicken, names_what_it_refuses) {
+  const CubeSurface cube;
+  EXPECT_EQ(complaint([&] { return thicken(cube.points, cube.faces, 0, 1); }),
+            "thicken: the thickness must be finite and not zero");
+  EXPECT_NE(complaint([&] { return thicken(cube.points, cube.faces, kNaN, 1); }), "");
+  EXPECT_EQ(complaint([&] { return thicken(cube.points, {}, 1, 1); }),
+            "thicken: the mesh has no faces");
+  EXPECT_THROW((void)thicken(cube.points, {{0, 1, 3}, {0, 1, 5}}, 1, 1), LatticeError);
+  // A sheet folded flat: its normals cancel along the fold.
+  EXPECT_THROW((void)thicken(cube.points, {{0, 1, 3}, {1, 0, 2}, {1, 2, 3}, {0, 3, 2}}, 1, 1),
+               LatticeError);
+}
+
+TEST(Solid, of_a_closed_cage_is_one_cell_whose_boundary_is_its_catmull_clark_surface) {
+  CubeSurface cube;
+  cube.points[7] = {1.25, 1.5, 1.125};
+  cube.points.push_back(glm::dvec3(9));  // used by no face
+  const CellMesh mesh = solid(cube.points, cube.faces);
+  EXPECT_EQ(defect_of(mesh), "");
+  ASSERT_EQ(mesh.cells.cells.n_rows(), 1u);
+  ASSERT_EQ(mesh.points.size(), 8u);
+  SubdivisionLattice lattice = test::lattice_from(mesh);
+  lattice.sharpness = smooth_sharpness(*lattice.complex);
+  const SubdivisionLattice fine = refined(lattice, 2);
+  std::set<std::array<double, 3>> boundary;
+  for (const VertexId vertex : fine.complex->vertices()) {
+    if (fine.complex->is_boundary(vertex)) {
+      const glm::dvec3 p = fine.rest[vertex.index()];
+      boundary.insert({std::round(p.x * 1e12), std::round(p.y * 1e12), std::round(p.z * 1e12)});
+    }
+  }
+  const std::vector<glm::dvec3> points(cube.points.begin(), cube.points.begin() + 8);
+  const osd::RefinedSurface surface = osd::refine_surface(points, cube.faces, 2);
+  EXPECT_EQ(boundary.size(), surface.points.size());
+  for (const glm::dvec3& p : surface.points) {
+    EXPECT_TRUE(
+        boundary.contains({std::round(p.x * 1e12), std::round(p.y * 1e12), std::round(p.z * 1e12)}))
+        << p.x << " " << p.y << " " << p.z;
+  }
+}
+
+TEST(Solid, names_an_edge_where_the_cage_is_open_or_has_more_than_two_faces) {
+  const CubeSurface cube;
+  const auto says = [&](const Rows& faces) -> std::string {
+    try {
+      (void)solid(cube.points, faces);
+    } catch (const LatticeError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(says({{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}}),
+            "solid: the mesh is not closed: edge 4-5 has 1 face, needs two");
+  EXPECT_EQ(says({{0, 1, 3}, {0, 1, 5}, {0, 1, 4}}),
+            "solid: the mesh is not closed: edge 0-1 has 3 faces, needs two");
 }
 
 TEST(MakeBox, fills_the_box_with_u_fastest) {
@@ -280,7 +398,7 @@ TEST(MakeCylinder, is_round_about_any_axis) {
       EXPECT_NEAR(glm::length(mesh.points[i]), ring, 1e-14);
       EXPECT_NEAR(glm::dot(mesh.points[i], glm::normalize(to)), 0, 1e-14);
     }
-    volume_of(mesh);
+    EXPECT_GT(volume_of(mesh), 0);
   }
 }
 

@@ -14,6 +14,7 @@ TEST_F(InfoCommand, tells_a_lattice_in_words) {
             "  faces at inner edges     1 × 4\n"
             "  faces at boundary edges  20 × 2, 12 × 3\n"
             "  faces of cells           4 × 6\n"
+            "  cells meet in an edge only at 0 edges, in a vertex only at 0 vertices\n"
             "  sharp edges 20, semi-sharp 0; corners 8, semi-sharp 0\n"
             "  box 0 0 0  to  1 1 0.5\n"
             "  valid\n");
