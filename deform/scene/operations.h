@@ -9,7 +9,8 @@
 
 namespace espalier {
 
-/// In the order in which users meet them: new …, convert, refine, extrude …, bind, deform, open, save.
+/// In the order in which users meet them: new …, convert, refine, extrude …, bind, deform, open,
+/// save.
 [[nodiscard]] const std::vector<Operation>& operations();
 
 /// The operation with a name. Throws ParameterError if there is none.

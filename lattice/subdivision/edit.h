@@ -20,8 +20,9 @@ namespace espalier {
 [[nodiscard]] SubdivisionLattice edited_lattice(const SubdivisionLattice& lattice, Edited edit,
                                                 const Progress& progress = {});
 
-/// Two lattices as one, then edited; `edit` gets the cells of both side by side. The scheme and
-/// unknown keys are the first's. Throws as edited_lattice().
+/// Two lattices as one: the elements of both, side_by_side(), then weld() with a tolerance in model
+/// units. Posed if one of them is; the scheme and unknown keys are the first's. Throws as
+/// edited_lattice() and weld().
 [[nodiscard]] SubdivisionLattice merged_lattice(const SubdivisionLattice& first,
                                                 const SubdivisionLattice& second, double tolerance,
                                                 const Progress& progress = {});

@@ -109,9 +109,10 @@ TEST(EditedLattice, moves_new_vertices_in_a_pose_with_what_they_were_made_from) 
         grown.rest.begin());
     EXPECT_TRUE(near(displacement(grown, top), displacement(lattice, 8 + i)));
   }
-  const auto split = edited_lattice(lattice, split_layer(mesh, 0, 1, 0.25));
+  const Edited cut = split_layer(mesh, 0, 1, 0.25);
+  const auto split = edited_lattice(lattice, cut);
   for (std::size_t i = 12; i < 18; ++i) {
-    const auto& sources = split_layer(mesh, 0, 1, 0.25).sources[i];
+    const auto sources = cut.sources[i];
     ASSERT_EQ(sources.size(), 2u);
     EXPECT_TRUE(
         near(displacement(split, i),

@@ -369,8 +369,8 @@ TEST(SplitLayer, of_a_box_is_the_finer_box) {
   }
   EXPECT_EQ(shape_by_place(edit.mesh), shape_by_place(expected));
   // Cell 1 keeps the part at (2, 1, 0).
-  const auto lower = CellComplex(edit.mesh.cells).vertices(CellId{edit.map.cells[1]});
-  for (const VertexId vertex : lower) {
+  const CellComplex complex(edit.mesh.cells);
+  for (const VertexId vertex : complex.vertices(CellId{edit.map.cells[1]})) {
     EXPECT_GE(edit.mesh.points[vertex.index()].x, 1.75);
   }
 }
