@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <ctime>
 #include <string>
@@ -34,6 +35,23 @@ double seconds(const Work& work, int repeats = 3) {
   return best;
 }
 
+/// The least seconds of several works, taken in turn, so that what else the machine does hits all
+/// alike; each runs three times in its turn, the first to bring its data into the caches.
+template <class... Works>
+std::array<double, sizeof...(Works)> best_seconds(int rounds, const Works&... works) {
+  std::array<double, sizeof...(Works)> best;
+  best.fill(1e300);
+  for (int round = 0; round < rounds; ++round) {
+    std::size_t at = 0;
+    const auto time = [&](const auto& work) {
+      best[at] = std::min(best[at], seconds(work, 3));
+      ++at;
+    };
+    (time(works), ...);
+  }
+  return best;
+}
+
 /// Seconds to copy `bytes` once, out of and into memory that is too large for a cache.
 inline double copy_seconds(std::size_t bytes) {
   static constexpr std::size_t kBlock = std::size_t{1} << 28;
@@ -45,6 +63,13 @@ inline double copy_seconds(std::size_t bytes) {
 
 inline void print(const std::string& what, double value, const std::string& unit) {
   fmt::print("  {:<66} {:>9.3g} {}\n", what, value, unit);
+}
+
+/// A ratio, and whether it is at most ('<') or at least ('>') the mark.
+inline void print_mark(const std::string& what, double value, char relation, double mark) {
+  const bool is_reached = relation == '<' ? value <= mark : value >= mark;
+  fmt::print("  {:<66} {:>9.3g} {} {:<5} {}\n", what, value, relation == '<' ? "≤" : "≥", mark,
+             is_reached ? "reached" : "missed");
 }
 
 }  // namespace espalier::bench
