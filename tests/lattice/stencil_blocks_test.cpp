@@ -83,9 +83,9 @@ bool are_same_bits(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
-class StencilBlocksOf : public testing::TestWithParam<InstructionSet> {};
+class StencilBlocksOnEverySet : public testing::TestWithParam<InstructionSet> {};
 
-TEST_P(StencilBlocksOf, the_instruction_set_have_the_bits_of_the_table_in_double) {
+TEST_P(StencilBlocksOnEverySet, have_the_bits_of_the_table_in_double) {
   for (const test::NamedLattice& family : test::lattice_families()) {
     const StencilTable table = refined_vertices(family.lattice);
     const auto controls = some_points<double>(table.n_controls());
@@ -98,7 +98,7 @@ TEST_P(StencilBlocksOf, the_instruction_set_have_the_bits_of_the_table_in_double
                             table.apply(controls)));
 }
 
-TEST_P(StencilBlocksOf, the_instruction_set_equal_the_table_in_float) {
+TEST_P(StencilBlocksOnEverySet, equal_the_table_in_float) {
   std::vector<StencilTable> tables = {random_table(1000, 50)};
   for (const test::NamedLattice& family : test::lattice_families()) {
     tables.push_back(refined_vertices(family.lattice));
@@ -121,7 +121,7 @@ TEST_P(StencilBlocksOf, the_instruction_set_equal_the_table_in_float) {
   }
 }
 
-TEST_P(StencilBlocksOf, the_instruction_set_leave_zeros_and_unreached_rows_at_positive_zero) {
+TEST_P(StencilBlocksOnEverySet, leave_zeros_and_unreached_rows_at_positive_zero) {
   const StencilTable table = refined_vertices(test::prism(test::o_grid_section(), 3));
   std::vector<glm::vec3> controls(table.n_controls(), glm::vec3(0));
   const StencilBlocks<float> blocks(table, GetParam());
@@ -141,7 +141,7 @@ TEST_P(StencilBlocksOf, the_instruction_set_leave_zeros_and_unreached_rows_at_po
   EXPECT_LT(n_unreached, points.size());
 }
 
-TEST_P(StencilBlocksOf, the_instruction_set_have_the_same_bits_for_any_number_of_threads) {
+TEST_P(StencilBlocksOnEverySet, have_the_same_bits_for_any_number_of_threads) {
   const StencilTable table = random_table(20000, 300);
   const auto controls = some_points<float>(300);
   set_thread_count(1);
@@ -154,7 +154,7 @@ TEST_P(StencilBlocksOf, the_instruction_set_have_the_same_bits_for_any_number_of
   set_thread_count(0);
 }
 
-TEST_P(StencilBlocksOf, the_instruction_set_allocate_nothing_when_they_are_applied) {
+TEST_P(StencilBlocksOnEverySet, allocate_nothing_when_they_are_applied) {
   const StencilTable table = random_table(20000, 300);
   const StencilBlocks<float> blocks(table, GetParam());
   const auto controls = some_points<float>(300);
@@ -165,14 +165,14 @@ TEST_P(StencilBlocksOf, the_instruction_set_allocate_nothing_when_they_are_appli
   EXPECT_EQ(allocations, before);
 }
 
-TEST_P(StencilBlocksOf, the_instruction_set_may_be_empty) {
+TEST_P(StencilBlocksOnEverySet, may_be_empty) {
   EXPECT_TRUE(applied(StencilBlocks<double>(StencilTable(), GetParam()), {}).empty());
   const StencilTable no_weights = StencilTable::build(20, 3, [](std::size_t, StencilRow&) {});
   EXPECT_EQ(applied(StencilBlocks<double>(no_weights, GetParam()), some_points<double>(3)),
             std::vector<glm::dvec3>(20, glm::dvec3(0)));
 }
 
-INSTANTIATE_TEST_SUITE_P(InstructionSets, StencilBlocksOf,
+INSTANTIATE_TEST_SUITE_P(InstructionSets, StencilBlocksOnEverySet,
                          testing::ValuesIn(available_instruction_sets()),
                          [](const auto& one) { return std::string(name_of(one.param)); });
 
