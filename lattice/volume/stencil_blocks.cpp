@@ -15,7 +15,7 @@
 namespace espalier {
 namespace {
 
-constexpr std::size_t kBlocksPerRange = 256;
+constexpr std::size_t kBlocksPerRange = 512;
 /// What a block costs besides its columns, in columns: mostly putting its points where they belong.
 constexpr std::size_t kBlockCost = 8;
 

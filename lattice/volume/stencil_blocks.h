@@ -17,9 +17,10 @@ namespace espalier {
 
 /// The product of StencilTable::apply, several times as fast: rows with nearly the same indices
 /// stand together in blocks that share one list of columns, filled up with zeros, and blocks with
-/// the same weights, as the cells of a regular region have, share these. Immutable.
+/// the same weights, as the cells of a regular region have, share these. Those of a volume's
+/// stencils() make what Volume::displacements() makes, frame after frame. Immutable.
 /// Real: double, with the bits of StencilTable::apply on every machine, or float, within
-/// (#weights of the row) · 2⁻²⁴ of Σ |w| |p|, whose bits depend on the instruction set.
+/// (#weights of the row + 2) · 2⁻²⁴ of Σ |w| |p|, whose bits depend on the instruction set.
 template <class Real>
 class StencilBlocks {
  public:

@@ -95,14 +95,6 @@ WeightRows rows_of(const Volume& volume, const Surface& surface) {
   return rows;
 }
 
-template <class Work>
-double two_thread_seconds(int rounds, const Work& work) {
-  set_thread_count(2);
-  const auto [best] = best_seconds(rounds, work);
-  set_thread_count(1);
-  return best;
-}
-
 /// Nanoseconds a point of the tricubic's positions.
 double bench_tricubic(std::size_t n, double peak, double ns_before) {
   const std::vector<glm::dvec3> grid = test::grid_points({kCells, kCells, kCells});
@@ -134,7 +126,6 @@ double bench_tricubic(std::size_t n, double peak, double ns_before) {
       [&] { rows.apply_as_opensubdiv(motion.values(), to.data()); },
       [&] { rows.apply_plainly(motion.values(), to.data()); });
   peak = sink > 0 ? std::max(peak, 100000 * 80 / spinning) : peak;
-  const double two = two_thread_seconds(rounds, positions);
   const double ns = one / n_points * 1e9;
   fmt::print("tricubic, {} points: {:.2f} ns a point\n", n, ns);
   if (n < 1000000) {
@@ -147,7 +138,7 @@ double bench_tricubic(std::size_t n, double peak, double ns_before) {
   }
   print_mark("positions, normals, determinants, to positions", with_normals / one, '<', 2.5);
   if (n > 100000) {
-    print_mark("two threads, times as fast as one", one / two, '>', 1.8);
+    print_mark("two threads, times as fast as one", two_thread_gain(rounds, positions), '>', 1.8);
   }
   return ns;
 }

@@ -15,12 +15,16 @@
 
 namespace espalier::bench {
 
+inline double clock_seconds(clockid_t clock) {
+  timespec time{};
+  ::clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 /// With one thread the time of the processor, which other programs hardly disturb; with more the
 /// time that passes.
 inline double now() {
-  timespec time{};
-  ::clock_gettime(thread_count() == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  return clock_seconds(thread_count() == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC);
 }
 
 /// Seconds that `work` takes: the best of `repeats`.
@@ -50,6 +54,23 @@ std::array<double, sizeof...(Works)> best_seconds(int rounds, const Works&... wo
     (time(works), ...);
   }
   return best;
+}
+
+/// How many times as fast `work` is with two threads as with one, both by the time that passes,
+/// taken in turn.
+template <class Work>
+double two_thread_gain(int rounds, const Work& work) {
+  double best[2] = {1e300, 1e300};
+  for (int i = 0; i < 6 * rounds; ++i) {
+    const int threads = i / 3 % 2 + 1;
+    set_thread_count(threads);
+    const double start = clock_seconds(CLOCK_MONOTONIC);
+    work();
+    double& least = best[threads - 1];
+    least = std::min(least, clock_seconds(CLOCK_MONOTONIC) - start);
+  }
+  set_thread_count(1);
+  return best[0] / best[1];
 }
 
 /// Seconds to copy `bytes` once, out of and into memory that is too large for a cache.

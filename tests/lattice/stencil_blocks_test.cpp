@@ -14,6 +14,7 @@
 
 #include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
+#include "lattice/subdivision/freeze.h"
 #include "lattice/subdivision/refine.h"
 #include "tests/support/families.h"
 
@@ -170,6 +171,18 @@ TEST_P(StencilBlocksOnEverySet, may_be_empty) {
   const StencilTable no_weights = StencilTable::build(20, 3, [](std::size_t, StencilRow&) {});
   EXPECT_EQ(applied(StencilBlocks<double>(no_weights, GetParam()), some_points<double>(3)),
             std::vector<glm::dvec3>(20, glm::dvec3(0)));
+}
+
+TEST_P(StencilBlocksOnEverySet, make_the_displacements_of_a_volume_to_the_bit) {
+  const SubdivisionLattice lattice = test::prism(test::o_grid_section(), 3);
+  const Volume volume = freeze_uniform(lattice, 1);
+  const std::vector<glm::dvec3> pose = test::jittered(lattice.rest, 0.3, 1);
+  std::vector<glm::dvec3> moves = pose;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    moves[i] -= lattice.rest[i];
+  }
+  EXPECT_TRUE(are_same_bits(applied(StencilBlocks<double>(volume.stencils(), GetParam()), moves),
+                            volume.displacements(pose)));
 }
 
 INSTANTIATE_TEST_SUITE_P(InstructionSets, StencilBlocksOnEverySet,
