@@ -18,6 +18,7 @@ namespace espalier {
 // The table's parts.
 [[nodiscard]] std::vector<Operation> file_operations();
 [[nodiscard]] std::vector<Operation> lattice_operations();
+[[nodiscard]] std::vector<Operation> pose_operations();
 [[nodiscard]] std::vector<Operation> deform_operations();
 
 }  // namespace espalier

@@ -110,8 +110,9 @@ TEST(Operation, the_table_has_distinct_names_and_tells_all_about_its_parameters)
       EXPECT_FALSE(parameter.is_required && parameter.fallback) << parameter.name;
     }
   }
-  EXPECT_EQ(names, (std::set<std::string>{"bind", "convert", "deform", "new box", "new cylinder",
-                                          "open", "refine", "save"}));
+  EXPECT_EQ(names, (std::set<std::string>{"bind", "convert", "deform", "move points", "new box",
+                                          "new cylinder", "open", "refine", "save", "save deformed",
+                                          "set pose"}));
   EXPECT_THROW((void)operation_named("new"), ParameterError);
 }
 
