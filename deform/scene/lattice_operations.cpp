@@ -4,75 +4,17 @@
 #include <utility>
 
 #include "deform/model/surface_model.h"
+#include "deform/scene/lattice_parameters.h"
 #include "deform/scene/operations.h"
 #include "lattice/build/extrude.h"
 #include "lattice/build/primitives.h"
 #include "lattice/core/error.h"
-#include "lattice/core/text_scanner.h"
-#include "lattice/io/lattice_file.h"
 #include "lattice/subdivision/refine.h"
 
 namespace espalier {
 namespace {
 
 using Type = ParameterType;
-
-const std::vector<std::string> kSchemes = {"catmull-clark", "mj96"};
-
-Parameter result_parameter(const char* help) {
-  return {.name = "output", .type = Type::Result, .help = help, .is_required = true};
-}
-
-Parameter scheme_parameter() {
-  return {.name = "scheme",
-          .type = Type::Choice,
-          .help = "rules at extraordinary lines (default catmull-clark)",
-          .choices = kSchemes};
-}
-
-Scheme scheme_of(const Arguments& arguments, Scheme fallback) {
-  return arguments.has("scheme") ? *scheme_named(arguments.text("scheme")) : fallback;
-}
-
-Parameter sharp_parameter() {
-  return {.name = "sharp",
-          .type = Type::Text,
-          .help = "creases: auto, none, or angle:DEGREES for edges that bend more (default auto)",
-          .fallback = Value(std::string("auto"))};
-}
-
-/// Tags by "auto", "none" or "angle:DEGREES".
-Sharpness sharpness_of(const SubdivisionLattice& lattice, const std::string& word) {
-  static const std::string kAngle = "angle:";
-  double degrees = 0;
-  if (word == "auto") {
-    return automatic_sharpness(*lattice.complex);
-  }
-  if (word == "none") {
-    return smooth_sharpness(*lattice.complex);
-  }
-  if (!word.starts_with(kAngle) ||
-      !parse_number(std::string_view(word).substr(kAngle.size()), degrees) ||
-      !(degrees >= 0 && degrees <= 180)) {
-    throw ParameterError("'sharp' is '" + word +
-                         "', must be auto, none or angle:DEGREES from 0 to 180");
-  }
-  return sharpness_by_angle(*lattice.complex, lattice.rest, degrees);
-}
-
-Scene add_lattice(const Scene& scene, const Arguments& arguments, CellMesh mesh,
-                  const Progress& progress) {
-  RawLattice raw;
-  raw.polyhedra = std::move(mesh.cells);
-  raw.rest = std::move(mesh.points);
-  raw.scheme = scheme_of(arguments, Scheme::CatmullClark);
-  const std::string& name = arguments.text("output");
-  SubdivisionLattice lattice = build_lattice(std::move(raw), name, progress);
-  if (arguments.has("sharp")) {
-    lattice.sharpness = sharpness_of(lattice, arguments.text("sharp"));
-  }
-  return with_lattice(scene, name, std::move(lattice));
-}
 
 Scene new_box(const Scene& scene, const Arguments& arguments, const Progress& progress) {
   const auto n = arguments.integers("cells");
@@ -105,7 +47,7 @@ Scene new_cylinder(const Scene& scene, const Arguments& arguments, const Progres
 
 /// A lattice converts to itself: what changes is its file. Its tags stay.
 Scene convert_lattice(const Scene& scene, const Arguments& arguments) {
-  for (const char* option : {"extrude", "layers", "sharp"}) {
+  for (const char* option : {"extrude", "thicken", "solid", "layers", "sharp"}) {
     if (arguments.has(option)) {
       throw ParameterError(std::string("'") + option + "' is for surface meshes, not for lattices");
     }
@@ -115,21 +57,41 @@ Scene convert_lattice(const Scene& scene, const Arguments& arguments) {
   return with_lattice(scene, arguments.text("output"), std::move(lattice));
 }
 
+/// Cells from a surface mesh, one of three ways.
+CellMesh mesh_from(const Model& model, const Arguments& arguments) {
+  const int n_ways = (arguments.has("extrude") ? 1 : 0) + (arguments.has("thicken") ? 1 : 0) +
+                     (arguments.flag("solid") ? 1 : 0);
+  if (n_ways != 1) {
+    throw ParameterError(n_ways == 0 ? "'extrude' is missing: direction and length dx dy dz; or "
+                                       "--thicken, or --solid"
+                                     : "'extrude', --thicken and --solid exclude each other");
+  }
+  if (arguments.flag("solid")) {
+    if (arguments.has("layers")) {
+      throw ParameterError("'layers' is for --extrude and --thicken");
+    }
+    return solid(model.points(), model.faces());
+  }
+  const int layers = arguments.has("layers") ? arguments.integer("layers") : 1;
+  return arguments.has("extrude")
+             ? extrude(model.points(), model.faces(), arguments.vector("extrude"), layers)
+             : thicken(model.points(), model.faces(), arguments.number("thicken"), layers);
+}
+
 Scene convert(const Scene& scene, const Arguments& arguments, const Progress& progress) {
   const std::string& name = arguments.text("mesh");
   if (scene.lattices.contains(name)) {
     return convert_lattice(scene, arguments);
   }
   const Model& model = model_in(scene, name);
-  if (!arguments.has("extrude")) {
-    throw ParameterError("'extrude' is missing: direction and length dx dy dz");
-  }
   if (model.faces().empty()) {
-    throw ParameterError(name + ": has no faces to extrude");
+    throw ParameterError(name + ": has no faces to make cells of");
   }
-  CellMesh mesh = extrude(model.points(), model.faces(), arguments.vector("extrude"),
-                          arguments.has("layers") ? arguments.integer("layers") : 1);
-  return add_lattice(scene, arguments, std::move(mesh), progress);
+  Arguments options = arguments;
+  if (arguments.flag("solid") && !arguments.has("sharp")) {
+    options.set("sharp", std::string("none"));
+  }
+  return add_lattice(scene, options, mesh_from(model, arguments), progress);
 }
 
 Scene refine_object(const Scene& scene, const Arguments& arguments, const Progress& progress) {
@@ -209,18 +171,27 @@ std::vector<Operation> lattice_operations() {
         result_parameter("the lattice, .json or .ovm")},
        new_cylinder},
       {"convert",
-       "Make a lattice from a surface mesh by extruding it, or write a lattice in another format",
+       "Make a lattice from a surface mesh, or write a lattice in another format",
        {{.name = "mesh",
          .type = Type::ModelOrLattice,
-         .help = "an open surface mesh (.obj), every face of which becomes a stack of cells; or a "
-                 "lattice (.json, .ovm)",
+         .help =
+             "a surface mesh (.obj), every face of which becomes a stack of cells; or a lattice "
+             "(.json, .ovm)",
          .is_required = true,
          .is_positional = true},
         {.name = "extrude",
          .type = Type::Numbers,
          .help = "direction and length dx dy dz, for a mesh",
          .count = 3},
-        {.name = "layers", .type = Type::Integer, .help = "cells along the direction (default 1)"},
+        {.name = "thicken",
+         .type = Type::Number,
+         .help = "how far to grow a mesh along its normals; negative: to the other side"},
+        {.name = "solid",
+         .type = Type::Flag,
+         .help = "make the inside of a closed mesh one cell, smooth unless --sharp says otherwise"},
+        {.name = "layers",
+         .type = Type::Integer,
+         .help = "cells along the direction or the normals (default 1)"},
         scheme_parameter(),
         {.name = "sharp", .type = Type::Text, .help = sharp_parameter().help},
         result_parameter("the lattice, .json, .ovm, or .vtu for VTK and ParaView")},
@@ -239,7 +210,7 @@ std::vector<Operation> lattice_operations() {
         {.name = "scheme",
          .type = Type::Choice,
          .help = "rules at extraordinary lines (default: the lattice's own)",
-         .choices = kSchemes},
+         .choices = scheme_names()},
         result_parameter("the refined lattice or model")},
        refine_object},
   };

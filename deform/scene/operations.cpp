@@ -9,8 +9,8 @@ namespace espalier {
 const std::vector<Operation>& operations() {
   static const std::vector<Operation> kTable = [] {
     std::vector<Operation> table;
-    for (auto part :
-         {lattice_operations(), pose_operations(), deform_operations(), file_operations()}) {
+    for (auto part : {lattice_operations(), building_operations(), pose_operations(),
+                      deform_operations(), file_operations()}) {
       std::move(part.begin(), part.end(), std::back_inserter(table));
     }
     return table;

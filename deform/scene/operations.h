@@ -9,7 +9,8 @@
 
 namespace espalier {
 
-/// In the order in which users meet them: open, new …, convert, refine, bind, deform, save.
+/// In the order in which users meet them: new …, convert, refine, extrude …, bind, deform, open,
+/// save.
 [[nodiscard]] const std::vector<Operation>& operations();
 
 /// The operation with a name. Throws ParameterError if there is none.
@@ -18,6 +19,7 @@ namespace espalier {
 // The table's parts.
 [[nodiscard]] std::vector<Operation> file_operations();
 [[nodiscard]] std::vector<Operation> lattice_operations();
+[[nodiscard]] std::vector<Operation> building_operations();
 [[nodiscard]] std::vector<Operation> pose_operations();
 [[nodiscard]] std::vector<Operation> deform_operations();
 

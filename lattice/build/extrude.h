@@ -1,10 +1,11 @@
 #pragma once
 
-/// Lattices from surface meshes: the extrusion tool of [MJ96] section 5.
+/// Lattices from surface meshes: the extrusion tool of [MJ96] section 5, for sections and shells.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <vector>
 
 #include "lattice/build/cell_mesh.h"
 #include "lattice/core/compressed_rows.h"
@@ -21,5 +22,32 @@ namespace espalier {
 [[nodiscard]] CellMesh extrude(std::span<const glm::dvec3> points,
                                const CompressedRows<std::int32_t>& faces,
                                const glm::dvec3& direction, int layers);
+
+/// Grows a surface mesh along its normals in `layers` equal steps of `thickness` together, see
+/// offsets_along_normals(); numbering as in extrude(). The normals are those of faces that run
+/// counter-clockwise; a negative thickness grows to the other side. Throws as extrude(), and
+/// LatticeError if two faces run along one edge in the same direction, more than two meet there, or
+/// the normals at a point cancel.
+[[nodiscard]] CellMesh thicken(std::span<const glm::dvec3> points,
+                               const CompressedRows<std::int32_t>& faces, double thickness,
+                               int layers);
+
+/// The inside of a closed surface mesh as one cell. Points no face uses are left out. Throws
+/// ParameterError as extrude(), LatticeError naming an edge without exactly two faces.
+[[nodiscard]] CellMesh solid(std::span<const glm::dvec3> points,
+                             const CompressedRows<std::int32_t>& faces);
+
+/// Stacks of prisms between given places of a section's points. faces: of one step, rows of its n
+/// points; points: #steps · n, model units, vertex i of step l at i + l·n, every one used. Closed:
+/// the last step is joined to the first.
+[[nodiscard]] CellMesh stack(std::vector<glm::dvec3> points,
+                             const CompressedRows<std::int32_t>& faces, std::size_t n_steps,
+                             bool is_closed = false);
+
+/// Throws ParameterError unless layers is in 1…10,000 and the cells that stacks over `n_values`
+/// face corners make can be counted.
+void check_layers(int layers, std::size_t n_values);
+/// Throws ParameterError for a direction that is zero or not finite.
+void check_direction(const glm::dvec3& direction);
 
 }  // namespace espalier

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <span>
 #include <utility>
 
@@ -48,18 +47,6 @@ auto naming_file(const std::string& path, const Work& work) {
   } catch (const LatticeError& error) {
     throw LatticeError(path + ": " + error.what());
   }
-}
-
-std::shared_ptr<const CellComplex> build_complex(Polyhedra polyhedra,
-                                                 std::span<const glm::dvec3> rest,
-                                                 const Progress& progress) {
-  auto complex = std::make_shared<const CellComplex>(std::move(polyhedra));
-  std::vector<Defect> defects = find_edge_defects(*complex);
-  if (defects.empty()) {
-    defects = find_geometric_defects(*complex, rest, progress);
-  }
-  throw_if_defective(defects);
-  return complex;
 }
 
 void set_sharp_edges(const CellComplex& complex, const std::vector<SharpEdge>& sharp_edges,
@@ -175,7 +162,7 @@ SubdivisionLattice build_lattice(RawLattice raw, const std::string& path,
                                      raw.rest.size(), raw.pose.size(), n_vertices));
     }
     SubdivisionLattice lattice;
-    lattice.complex = build_complex(std::move(raw.polyhedra), raw.rest, progress);
+    lattice.complex = valid_complex(std::move(raw.polyhedra), raw.rest, progress);
     lattice.rest = std::move(raw.rest);
     lattice.pose = std::move(raw.pose);
     lattice.scheme = raw.scheme;

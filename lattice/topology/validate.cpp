@@ -123,6 +123,18 @@ std::vector<Defect> find_geometric_defects(const CellComplex& complex,
   return defects;
 }
 
+std::shared_ptr<const CellComplex> valid_complex(Polyhedra polyhedra,
+                                                 std::span<const glm::dvec3> points,
+                                                 const Progress& progress) {
+  auto complex = std::make_shared<const CellComplex>(std::move(polyhedra));
+  std::vector<Defect> defects = find_edge_defects(*complex);
+  if (defects.empty()) {
+    defects = find_geometric_defects(*complex, points, progress);
+  }
+  throw_if_defective(defects);
+  return complex;
+}
+
 std::vector<Defect> validate(const Polyhedra& polyhedra, std::span<const glm::dvec3> points,
                              const Progress& progress) {
   std::vector<Defect> defects = find_structural_defects(polyhedra);

@@ -3,6 +3,7 @@
 /// Everything that can be wrong with a lattice, named.
 
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,12 @@ namespace espalier {
 [[nodiscard]] std::vector<Defect> find_geometric_defects(const CellComplex& complex,
                                                          std::span<const glm::dvec3> points,
                                                          const Progress& progress = {});
+
+/// The complex of oriented tables that are valid at rest points; throws LatticeError with the first
+/// defect otherwise.
+[[nodiscard]] std::shared_ptr<const CellComplex> valid_complex(Polyhedra polyhedra,
+                                                               std::span<const glm::dvec3> points,
+                                                               const Progress& progress = {});
 
 /// All defects of oriented tables at rest points; empty if the lattice is valid.
 [[nodiscard]] std::vector<Defect> validate(const Polyhedra& polyhedra,

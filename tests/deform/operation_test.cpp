@@ -110,9 +110,12 @@ TEST(Operation, the_table_has_distinct_names_and_tells_all_about_its_parameters)
       EXPECT_FALSE(parameter.is_required && parameter.fallback) << parameter.name;
     }
   }
-  EXPECT_EQ(names, (std::set<std::string>{"bind", "convert", "deform", "move points", "new box",
-                                          "new cylinder", "open", "refine", "save", "save deformed",
-                                          "set pose"}));
+  EXPECT_EQ(
+      names,
+      (std::set<std::string>{
+          "attach", "bind",   "convert",       "crease",   "deform",       "delete",    "extrude",
+          "merge",  "mirror", "move points",   "new box",  "new cylinder", "open",      "refine",
+          "relax",  "save",   "save deformed", "set pose", "split",        "transform", "weld"}));
   EXPECT_THROW((void)operation_named("new"), ParameterError);
 }
 

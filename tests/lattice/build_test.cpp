@@ -12,11 +12,13 @@
 #include "lattice/core/error.h"
 #include "lattice/subdivision/freeze.h"
 #include "lattice/topology/cell_complex.h"
+#include "tests/lattice/mesh_shape.h"
 #include "tests/support/families.h"
 
 namespace espalier {
 namespace {
 
+using test::volume_of;
 using Rows = CompressedRows<std::int32_t>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -47,16 +49,6 @@ std::pair<std::vector<std::set<VertexId>>, std::set<std::set<VertexId>>> shape_o
     faces.emplace(vertices.begin(), vertices.end());
   }
   return {cells, faces};
-}
-
-double volume_of(const CellMesh& mesh) {
-  double sum = 0;
-  for (std::size_t cell = 0; cell < mesh.cells.cells.n_rows(); ++cell) {
-    const double volume = signed_volume(mesh.cells, cell, mesh.points);
-    EXPECT_GT(volume, 0);
-    sum += volume;
-  }
-  return sum;
 }
 
 TEST(Extrude, puts_vertex_i_of_step_l_at_i_plus_l_n) {
@@ -277,7 +269,7 @@ TEST(MakeCylinder, is_round_about_any_axis) {
       EXPECT_NEAR(glm::length(mesh.points[i]), ring, 1e-14);
       EXPECT_NEAR(glm::dot(mesh.points[i], glm::normalize(to)), 0, 1e-14);
     }
-    volume_of(mesh);
+    EXPECT_GT(volume_of(mesh), 0);
   }
 }
 

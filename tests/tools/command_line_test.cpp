@@ -12,12 +12,14 @@ class CommandLine : public CommandLineTest {};
 
 TEST_F(CommandLine, names_the_commands_when_it_knows_none_of_that_name) {
   EXPECT_EQ(refusal({"bogus"}, 2),
-            "there is no command 'bogus', only: new, convert, refine, bind, deform, info, eval, "
+            "there is no command 'bogus', only: new, convert, refine, extrude, attach, split, "
+            "delete, merge, weld, mirror, transform, relax, crease, bind, deform, info, eval, "
             "weights, render");
   EXPECT_EQ(refusal({"new", "teapot", "-o", "a.json"}, 2),
             "there is no command 'teapot', only: box, cylinder");
   EXPECT_EQ(refusal({}, 2),
-            "a command is missing, one of: new, convert, refine, bind, deform, info, eval, "
+            "a command is missing, one of: new, convert, refine, extrude, attach, split, "
+            "delete, merge, weld, mirror, transform, relax, crease, bind, deform, info, eval, "
             "weights, render");
   EXPECT_EQ(refusal({"new"}, 2), "a command is missing, one of: box, cylinder");
 }

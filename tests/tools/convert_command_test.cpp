@@ -60,7 +60,7 @@ TEST_F(ConvertLattice, refuses_what_has_no_meaning) {
   EXPECT_EQ(refusal({"convert", "box.json", "--sharp", "none", "-o", "a.json"}, 2),
             "--sharp is for surface meshes, not for lattices");
   EXPECT_EQ(refusal({"convert", "cube.obj", "-o", "a.json"}, 2),
-            "--extrude is missing: direction and length dx dy dz");
+            "--extrude is missing: direction and length dx dy dz; or --thicken, or --solid");
   EXPECT_EQ(refusal({"convert", "box.json", "--volume", "-o", "a.json"}, 2),
             "--volume is for lattices that become .vtu files");
   EXPECT_EQ(refusal({"convert", "box.json", "-o", "a.obj"}, 1).substr(0, 7), "a.obj: ");

@@ -138,7 +138,7 @@ TEST_F(LatticeCommands, convert_refuses_a_mesh_without_faces_and_a_zero_directio
   write_file("points.obj", "v 0 0 0\nv 1 0 0\n");
   write_file("cube.obj", cube_obj());
   EXPECT_EQ(refusal({"convert", "points.obj", "--extrude", "0", "0", "1", "-o", "a.json"}, 2),
-            "points.obj: has no faces to extrude");
+            "points.obj: has no faces to make cells of");
   EXPECT_EQ(refusal({"convert", "cube.obj", "--extrude", "0", "0", "0", "-o", "a.json"}, 2),
             "extrude: the direction must be finite and not zero");
 }

@@ -200,6 +200,30 @@ TEST_F(SessionTest, soft_selection_moves_neighbours_less_and_the_wheel_grows_its
   EXPECT_LT(share(2), 1);
 }
 
+TEST_F(SessionTest, e_grows_cells_from_faces_along_their_normal_or_an_axis_and_selects_the_ends) {
+  select_end();
+  press({"e", "1", "enter"});
+  ASSERT_EQ(bar().rest.size(), 20u) << session_.messages().front();
+  EXPECT_EQ(session_.selected_vertices(), at_x(4));
+  press({"e", "x", "2"});
+  EXPECT_EQ(session_.ghost().size(), 16u);
+  EXPECT_EQ(session_.ghost()[1].x, 6);
+  press({"enter"});
+  EXPECT_EQ(session_.selected_vertices(), at_x(6));
+  EXPECT_EQ(bar().complex->n_cells(), 5u);
+  press({"ctrl+z"});
+  EXPECT_EQ(bar().complex->n_cells(), 4u);
+}
+
+TEST_F(SessionTest, the_mouse_extrudes_along_the_normal_so_that_the_end_follows_it) {
+  select_end();
+  press({"kp5"});
+  session_.handle(MouseMove{pixel_of({3, 0.5, 0.5})});
+  press({"e"});
+  session_.handle(MouseMove{pixel_of({3.75, 0.5, 0.5})});
+  EXPECT_NEAR(session_.ghost()[1].x, 3.75, 1e-9);
+}
+
 TEST_F(SessionTest, binding_says_how_many_points_are_inside_and_posing_keeps_it) {
   press({"b"});
   const auto bound = session_.scene().bound.at({path("model.obj"), path("bar.json")});

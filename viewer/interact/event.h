@@ -39,11 +39,16 @@ struct MouseMove {
 struct Scroll {
   double steps = 0;
 };
+/// What typing makes, UTF-8.
+struct TextInput {
+  std::string text;
+};
 struct Resize {
   int width = 1;
   int height = 1;
 };
 
-using Event = std::variant<KeyPress, MousePress, MouseRelease, MouseMove, Scroll, Resize>;
+using Event =
+    std::variant<KeyPress, MousePress, MouseRelease, MouseMove, Scroll, TextInput, Resize>;
 
 }  // namespace espalier::viewer

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lattice/topology/face_triangles.h"
+
 namespace espalier::viewer {
 namespace {
 
@@ -134,6 +136,17 @@ LatticeElements elements_of(const Scene& scene, const std::string& lattice) {
 std::span<const glm::dvec3> points_of(const Scene& scene, const std::string& lattice, Shape shape) {
   const SubdivisionLattice& found = lattice_in(scene, lattice);
   return shape == Shape::Rest ? std::span<const glm::dvec3>(found.rest) : found.posed_points();
+}
+
+glm::dvec3 outward_area(const Scene& scene, const std::string& lattice, std::int32_t face,
+                        std::span<const glm::dvec3> points) {
+  const CellComplex& complex = *lattice_in(scene, lattice).complex;
+  std::vector<glm::dvec3> loop;
+  for (const VertexId vertex : complex.vertices(FaceId{face})) {
+    loop.push_back(points[vertex.index()]);
+  }
+  const double sign = complex.inner_half_face(FaceId{face}).side() == 0 ? 0.5 : -0.5;
+  return sign * area_vector(loop);
 }
 
 }  // namespace espalier::viewer

@@ -49,4 +49,8 @@ struct LatticeElements {
 [[nodiscard]] std::span<const glm::dvec3> points_of(const Scene& scene, const std::string& lattice,
                                                     Shape shape);
 
+/// The area vector of an outer face, away from its cell; model units².
+[[nodiscard]] glm::dvec3 outward_area(const Scene& scene, const std::string& lattice,
+                                      std::int32_t face, std::span<const glm::dvec3> points);
+
 }  // namespace espalier::viewer

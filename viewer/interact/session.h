@@ -46,6 +46,8 @@ class Session {
   void set_element_kind(ElementKind kind);
   void choose_lattice(const std::string& name);
   void begin_transform(TransformKind kind);
+  /// Grows cells from the selected faces, or from those all of whose vertices are selected.
+  void begin_extrusion();
   void select_all(bool is_selected);
   void select_connected();
   void invert_selection();
@@ -82,6 +84,8 @@ class Session {
   /// The chosen lattice's points as they are on the screen, a transform in progress included.
   [[nodiscard]] std::vector<glm::dvec3> shown_points() const;
   [[nodiscard]] const std::optional<Transform>& transform() const { return transform_; }
+  /// While faces are extruded: the edges of the cells to come, two points each, model units.
+  [[nodiscard]] std::vector<glm::dvec3> ghost() const;
   [[nodiscard]] const std::optional<Rubber>& rubber() const { return rubber_; }
   [[nodiscard]] bool is_soft() const { return is_soft_; }
   [[nodiscard]] bool is_through() const { return is_through_; }
@@ -97,9 +101,11 @@ class Session {
   void on(const MouseRelease& release);
   void on(const MouseMove& move);
   void on(const Scroll& scroll);
+  void on(const TextInput& /*text*/) {}
   void on(const Resize& size);
   bool on_transform_key(const std::string& chord);
   void finish_transform();
+  void finish_extrusion();
   void click(const glm::dvec2& at);
   void click_loop(const glm::dvec2& at);
   void select_box(const Rubber& box);

@@ -28,10 +28,18 @@ std::optional<double> typed(const std::string& text) {
   return parse_number(text, number) && std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
 
-/// Pixels by which a point moves on the screen a unit of model space along an axis.
-glm::dvec2 screen_axis(const View& view, const glm::dvec3& at, int axis) {
+/// Pixels by which a point moves on the screen a unit of model space along a direction.
+glm::dvec2 on_screen(const View& view, const glm::dvec3& at, const glm::dvec3& direction) {
   const double step = view.pixel_size(at);
-  return glm::dvec2(view.project(at + step * unit(axis)) - view.project(at)) / step;
+  return glm::dvec2(view.project(at + step * direction) - view.project(at)) / step;
+}
+
+/// How far along a direction the mouse went, model units; 0 if it is seen end-on.
+double length_along(const View& view, const glm::dvec3& at, const glm::dvec3& direction,
+                    const glm::dvec2& pixels) {
+  const glm::dvec2 along = on_screen(view, at, direction);
+  const double length = glm::dot(along, along);
+  return length > 0 ? glm::dot(pixels, along) / length : 0;
 }
 
 }  // namespace
@@ -59,7 +67,15 @@ void Transform::toggle(const AxisLock& wanted) {
   lock = is_so ? AxisLock() : wanted;
 }
 
+double Transform::distance(const View& view) const {
+  const auto length = typed(number);
+  return length ? *length : length_along(view, pivot, normal, at - from);
+}
+
 glm::dvec3 Transform::offset(const View& view) const {
+  if (kind == TransformKind::Extrude && lock.axis < 0) {
+    return distance(view) * normal;
+  }
   if (const auto length = typed(number)) {
     const int axis = lock.axis < 0 || lock.is_plane ? (lock.axis == 0 ? 1 : 0) : lock.axis;
     return *length * unit(axis);
@@ -70,13 +86,11 @@ glm::dvec3 Transform::offset(const View& view) const {
            (pixels.x * view.camera.right() - pixels.y * view.camera.upward());
   }
   if (!lock.is_plane) {
-    const glm::dvec2 along = screen_axis(view, pivot, lock.axis);
-    const double length = glm::dot(along, along);
-    return length > 0 ? glm::dot(pixels, along) / length * unit(lock.axis) : glm::dvec3(0.0);
+    return length_along(view, pivot, unit(lock.axis), pixels) * unit(lock.axis);
   }
   const int u = (lock.axis + 1) % 3;
   const int v = (lock.axis + 2) % 3;
-  const glm::dmat2 axes(screen_axis(view, pivot, u), screen_axis(view, pivot, v));
+  const glm::dmat2 axes(on_screen(view, pivot, unit(u)), on_screen(view, pivot, unit(v)));
   const double area = glm::determinant(axes);
   const double full = glm::length(axes[0]) * glm::length(axes[1]);
   if (std::abs(area) <= 1e-3 * full) {
@@ -118,7 +132,7 @@ std::vector<glm::dvec3> Transform::apply(const View& view, std::span<const glm::
       continue;
     }
     const glm::dvec3 arm = points[i] - pivot;
-    if (kind == TransformKind::Move) {
+    if (kind == TransformKind::Move || kind == TransformKind::Extrude) {
       moved[i] = points[i] + weights[i] * by;
     } else if (kind == TransformKind::Turn) {
       moved[i] = pivot + glm::dvec3(glm::rotate(glm::dmat4(1), weights[i] * turn, axis) *
@@ -135,9 +149,8 @@ std::vector<glm::dvec3> Transform::apply(const View& view, std::span<const glm::
 
 std::string Transform::text(const View& view) const {
   constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
-  std::string text = kind == TransformKind::Move   ? "move"
-                     : kind == TransformKind::Turn ? "turn"
-                                                   : "scale";
+  constexpr std::array<const char*, 4> kNames = {"move", "turn", "scale", "extrude"};
+  std::string text = kNames.at(static_cast<std::size_t>(kind));
   if (lock.axis >= 0) {
     text += std::string(lock.is_plane ? " all but " : " along ") +
             kAxes.at(static_cast<std::size_t>(lock.axis));
@@ -151,7 +164,7 @@ std::string Transform::text(const View& view) const {
     rounded(glm::degrees(angle(view)));
     return text + " degrees";
   }
-  rounded(kind == TransformKind::Move ? glm::length(offset(view)) : factor(view));
+  rounded(kind == TransformKind::Scale ? factor(view) : glm::length(offset(view)));
   return text;
 }
 

@@ -13,7 +13,8 @@
 
 namespace espalier::viewer {
 
-enum class TransformKind { Move, Turn, Scale };
+/// Extrude moves as Move does, but along `normal` unless an axis is locked.
+enum class TransformKind { Move, Turn, Scale, Extrude };
 
 /// Which axes a transform may use: all, along one, or the two of a plane.
 struct AxisLock {
@@ -25,10 +26,11 @@ struct AxisLock {
 struct Transform {
   TransformKind kind = TransformKind::Move;
   AxisLock lock{};
-  std::string number;     ///< as typed so far; empty: the mouse decides
-  glm::dvec2 from{0.0};   ///< where the mouse was at first, pixels
-  glm::dvec2 at{0.0};     ///< where it is
-  glm::dvec3 pivot{0.0};  ///< model units
+  std::string number;      ///< as typed so far; empty: the mouse decides
+  glm::dvec2 from{0.0};    ///< where the mouse was at first, pixels
+  glm::dvec2 at{0.0};      ///< where it is
+  glm::dvec3 pivot{0.0};   ///< model units
+  glm::dvec3 normal{0.0};  ///< unit; of Extrude
 
   /// Types a digit, point or minus, or takes one back ("backspace"); false for another key.
   bool type(const std::string& key);
@@ -38,11 +40,14 @@ struct Transform {
   /// Where the points go. weights: #points in [0, 1]. O(#points).
   [[nodiscard]] std::vector<glm::dvec3> apply(const View& view, std::span<const glm::dvec3> points,
                                               std::span<const double> weights) const;
+  /// How far Move and Extrude go.
+  [[nodiscard]] glm::dvec3 offset(const View& view) const;
+  /// How far along its normal Extrude goes.
+  [[nodiscard]] double distance(const View& view) const;
   /// What it does, for the status line: "move along x: 1.5".
   [[nodiscard]] std::string text(const View& view) const;
 
  private:
-  [[nodiscard]] glm::dvec3 offset(const View& view) const;
   [[nodiscard]] double angle(const View& view) const;
   [[nodiscard]] double factor(const View& view) const;
 };

@@ -1,0 +1,25 @@
+#pragma once
+
+/// What operations that make lattices have in common.
+
+#include <string>
+#include <vector>
+
+#include "deform/scene/operation.h"
+#include "lattice/build/cell_mesh.h"
+
+namespace espalier {
+
+[[nodiscard]] const std::vector<std::string>& scheme_names();
+
+[[nodiscard]] Parameter result_parameter(const char* help);
+[[nodiscard]] Parameter scheme_parameter();
+[[nodiscard]] Scheme scheme_of(const Arguments& arguments, Scheme fallback);
+[[nodiscard]] Parameter sharp_parameter();
+
+/// The scene with a new lattice named "output", its scheme and tags by "scheme" and "sharp". Throws
+/// LatticeError if the mesh is no valid lattice, ParameterError for a bad "sharp".
+[[nodiscard]] Scene add_lattice(const Scene& scene, const Arguments& arguments, CellMesh mesh,
+                                const Progress& progress);
+
+}  // namespace espalier
