@@ -291,6 +291,16 @@ TEST_F(SessionTest, what_cannot_be_done_is_a_message_and_changes_nothing) {
   EXPECT_EQ(session_.journal().text(), before);
 }
 
+TEST_F(SessionTest, n_puts_a_box_round_the_models_and_chooses_it) {
+  press({"n", "n"});
+  EXPECT_EQ(session_.lattice(), path("lattice2.json"));
+  EXPECT_EQ(session_.selection().size(), 8u);
+  const Box box = box_of(lattice_in(session_.scene(), path("lattice.json")).rest);
+  for (const glm::dvec3& point : model_in(session_.scene(), path("model.obj")).points()) {
+    EXPECT_TRUE(box.grown(-0.1).contains(point));
+  }
+}
+
 TEST_F(SessionTest, the_mouse_turns_shifts_and_zooms_the_view) {
   const auto drag = [&](MouseButton button, const Modifiers& held) {
     session_.handle(MousePress{button, {100, 100}, held});

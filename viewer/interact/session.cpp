@@ -63,6 +63,15 @@ bool Session::open(const std::string& path) {
   return is_open;
 }
 
+bool Session::run_line(const std::string& line) {
+  try {
+    return apply(parse_call(line));
+  } catch (const Error& error) {
+    say(error.what());
+    return false;
+  }
+}
+
 bool Session::recover(const std::string& journal_text) {
   try {
     replay(journal_text, journal_, progress_);
@@ -253,6 +262,33 @@ void Session::finish_transform() {
                       {"points", std::move(indices)},
                       {"to", std::move(to)},
                       {"shape", std::string(shape() == Shape::Pose ? "pose" : "rest")}})});
+  }
+}
+
+void Session::new_box() {
+  Box box;
+  for (const auto& [name, model] : scene().models) {
+    box.add(model.points());
+  }
+  if (scene().models.empty() || !(box.radius() > 0)) {
+    say("A box goes round a model: open one first.");
+    return;
+  }
+  constexpr double kMargin = 0.05;
+  box = box.grown(kMargin * box.radius());
+  const std::filesystem::path beside(scene().models.begin()->first);
+  std::string name;
+  for (int i = 1; name.empty() || scene().lattices.contains(name); ++i) {
+    name = (beside.parent_path() /
+            ("lattice" + (i == 1 ? std::string() : std::to_string(i)) + ".json"))
+               .string();
+  }
+  if (apply({"new box", Arguments({{"cells", std::vector<std::int64_t>{1, 1, 1}},
+                                   {"min", std::vector<double>{box.min.x, box.min.y, box.min.z}},
+                                   {"max", std::vector<double>{box.max.x, box.max.y, box.max.z}},
+                                   {"output", name}})})) {
+    choose_lattice(name);
+    select_all(true);
   }
 }
 
@@ -502,6 +538,7 @@ const std::vector<Command>& commands() {
       {"Lattice mode: shape the lattice at rest", "ctrl+1", mode(Mode::Lattice)},
       {"Bind mode: see what the lattice holds", "ctrl+2", mode(Mode::Bind)},
       {"Pose mode: bend", "ctrl+3", mode(Mode::Pose)},
+      {"New lattice: a box round the models", "n", &Session::new_box},
       {"Bind all models to the lattice", "b", &Session::bind},
       {"Move", "g", transform(TransformKind::Move)},
       {"Turn", "r", transform(TransformKind::Turn)},

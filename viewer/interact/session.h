@@ -38,6 +38,8 @@ class Session {
   bool apply(const OperationCall& call);
   /// Opens a model or lattice; the first ones decide where the camera stands.
   bool open(const std::string& path);
+  /// Does the operation that a line of a journal holds.
+  bool run_line(const std::string& line);
   /// Replays a journal's text on top of what is there.
   bool recover(const std::string& journal_text);
 
@@ -53,6 +55,8 @@ class Session {
   void invert_selection();
   void toggle_soft();
   void toggle_through() { is_through_ = !is_through_; }
+  /// A lattice of one cell round all models, lattice.json beside the first one.
+  void new_box();
   /// Ties every model to the chosen lattice.
   void bind();
   /// The chosen lattice back at rest.
