@@ -98,6 +98,16 @@ TEST_F(SessionTest, a_box_selects_through_the_lattice_or_only_what_is_visible) {
   }
 }
 
+TEST_F(SessionTest, a_click_on_a_face_anywhere_selects_the_nearest_that_covers_the_place) {
+  press({"kp1", "3"});
+  click(pixel_of({0.1, 0.1, 1}));
+  ASSERT_EQ(session_.selection().size(), 1u);
+  for (const std::int32_t vertex : session_.selected_vertices()) {
+    const glm::dvec3 point = bar().rest[static_cast<std::size_t>(vertex)];
+    EXPECT_TRUE(point.z == 1 && point.x <= 1);
+  }
+}
+
 TEST_F(SessionTest, what_is_selected_is_kept_as_far_as_another_kind_can_say_it) {
   select_end();
   press({"2"});

@@ -105,15 +105,15 @@ bool Gui::handle(const Event& event) {
     io.MouseWheel += static_cast<float>(scroll->steps);
     return io.WantCaptureMouse;
   }
-  if (const auto* text = std::get_if<TextInput>(&event)) {
-    io.AddInputCharactersUTF8(text->text.c_str());
-    return io.WantTextInput;
-  }
-  if (const auto* key = std::get_if<KeyPress>(&event)) {
-    press_key(key->chord);
-    return io.WantTextInput && !key->chord.starts_with("f");
-  }
   return false;
+}
+
+void Gui::type(const Event& event) {
+  if (const auto* text = std::get_if<TextInput>(&event)) {
+    ImGui::GetIO().AddInputCharactersUTF8(text->text.c_str());
+  } else if (const auto* key = std::get_if<KeyPress>(&event)) {
+    press_key(key->chord);
+  }
 }
 
 void Gui::begin(int width, int height, double seconds) {

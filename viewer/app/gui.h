@@ -14,8 +14,10 @@ class Gui {
   Gui& operator=(const Gui&) = delete;
   ~Gui();
 
-  /// Tells the panels what happened; true if it is for them alone.
+  /// Tells the panels what the mouse did; true if it is for them alone.
   bool handle(const Event& event);
+  /// Tells the text field that has the keyboard what was typed.
+  void type(const Event& event);
   /// Panels are made between these two. seconds: since the last frame.
   void begin(int width, int height, double seconds);
   /// Draws them into the current frame buffer.

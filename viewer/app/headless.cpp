@@ -49,6 +49,12 @@ class Canvas {
   GlFramebuffer frame_;
 };
 
+/// A panel that opens has its size and the keyboard in the frame after.
+void draw_settled(Viewer& viewer) {
+  viewer.draw(kFrameSeconds);
+  viewer.draw(kFrameSeconds);
+}
+
 void run_script(const HeadlessOptions& options, Viewer& viewer) {
   std::istringstream lines(options.script);
   std::string line;
@@ -65,7 +71,7 @@ void run_script(const HeadlessOptions& options, Viewer& viewer) {
       } else if (!viewer.session().apply(std::get<OperationCall>(step))) {
         throw FileError(options.script_path, number, viewer.session().messages().back());
       }
-      viewer.draw(kFrameSeconds);
+      draw_settled(viewer);
     }
   }
 }
@@ -85,10 +91,9 @@ Picture run_headless(const HeadlessOptions& options) {
     }
   }
   viewer.session().frame_all();
-  viewer.draw(kFrameSeconds);
+  draw_settled(viewer);
   run_script(options, viewer);
-  viewer.draw(0);
-  viewer.draw(0);  // a window takes its size from the frame before
+  viewer.draw(0);  // without the time a frame took
   return canvas.picture();
 }
 

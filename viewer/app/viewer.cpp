@@ -20,8 +20,8 @@ void Viewer::handle(const Event& event) {
     shows = !shows;
     return;
   }
-  const bool has_overlay = state_.shows_help || state_.shows_files || state_.shows_palette;
-  if (chord == "escape" && has_overlay) {
+  const bool has_text_field = state_.shows_files || state_.shows_palette;
+  if (chord == "escape" && (has_text_field || state_.shows_help)) {
     state_.shows_help = state_.shows_files = state_.shows_palette = false;
     return;
   }
@@ -29,7 +29,11 @@ void Viewer::handle(const Event& event) {
     ask_to_quit();
     return;
   }
-  if (!gui_.handle(event)) {
+  // What is typed goes to the panel that has a text field, as long as it is open.
+  const bool is_typed = key != nullptr || std::holds_alternative<TextInput>(event);
+  if (is_typed ? has_text_field : gui_.handle(event)) {
+    gui_.type(event);
+  } else {
     session_.handle(event);
   }
 }

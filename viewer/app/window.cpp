@@ -158,8 +158,10 @@ class Window {
     if (action == GLFW_RELEASE || name.empty()) {
       return;
     }
+    // The number pad's digits come with Shift where Num Lock is off.
+    const bool has_shift = (held & GLFW_MOD_SHIFT) != 0 && !name.starts_with("kp");
     const std::string chord = std::string((held & GLFW_MOD_CONTROL) != 0 ? "ctrl+" : "") +
-                              ((held & GLFW_MOD_SHIFT) != 0 ? "shift+" : "") +
+                              (has_shift ? "shift+" : "") +
                               ((held & GLFW_MOD_ALT) != 0 ? "alt+" : "") + name;
     events_.emplace_back(KeyPress{chord});
   }

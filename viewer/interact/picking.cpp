@@ -75,6 +75,26 @@ glm::dvec3 nearest_place(const View& view, const PickTarget& target, std::int32_
   return glm::mix(a, b, std::clamp(t, 0.0, 1.0));
 }
 
+/// Whether a pixel is inside the picture of a face.
+bool covers(const View& view, const PickTarget& target, std::int32_t face,
+            const glm::dvec2& pixel) {
+  const auto loop = target.lattice.faces[static_cast<std::size_t>(face)];
+  bool is_inside = false;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const glm::dvec3 a = view.project(target.points[static_cast<std::size_t>(loop[i])]);
+    const glm::dvec3 b =
+        view.project(target.points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])]);
+    if (!(a.z > 0 && b.z > 0)) {
+      return false;
+    }
+    if ((a.y > pixel.y) != (b.y > pixel.y) &&
+        pixel.x < a.x + (b.x - a.x) * (pixel.y - a.y) / (b.y - a.y)) {
+      is_inside = !is_inside;
+    }
+  }
+  return is_inside;
+}
+
 }  // namespace
 
 std::optional<std::int32_t> pick(const View& view, const PickTarget& target,
@@ -85,7 +105,8 @@ std::optional<std::int32_t> pick(const View& view, const PickTarget& target,
   std::optional<std::int32_t> found;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(target.lattice.count(target.kind)); ++i) {
     const glm::dvec3 place = nearest_place(view, target, i, pixel);
-    const double distance = glm::length(glm::dvec2(place) - pixel);
+    const bool is_covered = target.kind == ElementKind::Face && covers(view, target, i, pixel);
+    const double distance = is_covered ? 0 : glm::length(glm::dvec2(place) - pixel);
     constexpr double kSame = 0.5;  // pixels
     const bool is_better =
         distance < best - kSame || (distance <= best + kSame && (!found || place.z < best_depth));

@@ -51,14 +51,20 @@ void command_button(const char* label, const char* chord, float width,
   }
 }
 
+/// What to do next.
 const char* advice(const Session& session) {
+  const bool is_bound =
+      std::any_of(session.scene().bound.begin(), session.scene().bound.end(),
+                  [&](const auto& entry) { return entry.first.second == session.lattice(); });
   switch (session.mode()) {
     case Mode::Lattice:
-      return "Shape the lattice round the part\nthat is to bend.";
+      return "Shape the lattice round the part that is to bend.";
     case Mode::Bind:
-      return "Tie the models to the lattice.\nGreen points are inside.";
+      return is_bound ? "Bound. Green points are inside and will follow."
+                      : "Press Bind: it finds the points that the lattice holds.";
     default:
-      return "Move control points: the models\nfollow.";
+      return is_bound ? "Move control points: the models follow."
+                      : "Nothing is bound to this lattice yet: press b.";
   }
 }
 
@@ -90,7 +96,9 @@ void draw_tool_panel(const Session& session, std::vector<Action>& actions) {
       actions.emplace_back([mode](Session& target) { target.set_mode(mode); });
     }
   }
-  ImGui::TextColored(kFaint, "%s", advice(session));
+  ImGui::PushStyleColor(ImGuiCol_Text, kFaint);
+  ImGui::TextWrapped("%s", advice(session));
+  ImGui::PopStyleColor();
   ImGui::Separator();
   if (session.mode() == Mode::Bind) {
     command_button("Bind  (b)", "b", full, actions);
