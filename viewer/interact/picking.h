@@ -20,8 +20,9 @@ struct PickTarget {
 };
 
 /// The element at a pixel: a face that covers it; else the one whose middle, or whose line if it is
-/// an edge, is closest, within 12 pixels for vertices and edges and 40 for faces and cells. Of those
-/// equally close the nearest to the eye. O(n), or O(n · faces) if what is hidden does not count.
+/// an edge, is closest, within 12 pixels for vertices and edges and 40 for faces and cells. Of
+/// those equally close the nearest to the eye. O(n), or O(n · faces) if what is hidden does not
+/// count.
 [[nodiscard]] std::optional<std::int32_t> pick(const View& view, const PickTarget& target,
                                                const glm::dvec2& pixel);
 

@@ -165,70 +165,6 @@ void Session::begin_transform(TransformKind kind) {
   transform_ = transform;
 }
 
-void Session::begin_extrusion() {
-  if (mode_ != Mode::Lattice) {
-    say("Cells are extruded in Lattice mode: press ctrl+1.");
-    return;
-  }
-  set_element_kind(ElementKind::Face);
-  std::erase_if(selection_, [&](std::int32_t face) {
-    return !elements_.is_outer[static_cast<std::size_t>(face)];
-  });
-  if (selection_.empty()) {
-    say("Select faces of the lattice's outside first: press 3 and click one.");
-    return;
-  }
-  begin_transform(TransformKind::Extrude);
-  glm::dvec3 sum(0.0);
-  const auto points = points_of(scene(), lattice_, Shape::Rest);
-  for (const std::int32_t face : selection_) {
-    sum += outward_area(scene(), lattice_, face, points);
-  }
-  transform_->normal = glm::length(sum) > 0 ? glm::normalize(sum) : view_.camera.backward();
-}
-
-void Session::finish_extrusion() {
-  const Transform transform = *std::exchange(transform_, std::nullopt);
-  Arguments arguments({{"lattice", lattice_}, {"output", lattice_}});
-  std::string faces;
-  for (const std::int32_t face : selection_) {
-    faces += (faces.empty() ? "" : ",") + std::to_string(face);
-  }
-  arguments.set("faces", faces);
-  if (transform.lock.axis >= 0) {
-    const glm::dvec3 by = transform.offset(view_);
-    arguments.set("by", std::vector<double>{by.x, by.y, by.z});
-  } else {
-    arguments.set("normal", transform.distance(view_));
-  }
-  const std::int32_t n_before = elements_.n_vertices;
-  if (apply({"extrude", arguments})) {
-    Selection added;
-    for (std::int32_t i = n_before; i < elements_.n_vertices; ++i) {
-      added.insert(i);
-    }
-    selection_ = elements_.within(ElementKind::Face, added);
-  }
-}
-
-std::vector<glm::dvec3> Session::ghost() const {
-  std::vector<glm::dvec3> segments;
-  if (!transform_ || transform_->kind != TransformKind::Extrude) {
-    return segments;
-  }
-  const auto points = points_of(scene(), lattice_, shape());
-  const glm::dvec3 by = transform_->offset(view_);
-  for (const std::int32_t face : selection_) {
-    const auto loop = elements_.faces[static_cast<std::size_t>(face)];
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const glm::dvec3& a = points[static_cast<std::size_t>(loop[i])];
-      const glm::dvec3& b = points[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
-      segments.insert(segments.end(), {a, a + by, a + by, b + by});
-    }
-  }
-  return segments;
-}
-
 std::vector<glm::dvec3> Session::shown_points() const {
   if (lattice_.empty()) {
     return {};
@@ -517,58 +453,6 @@ void Session::select_box(const Rubber& box) {
     selection_.clear();
   }
   selection_.insert(found.begin(), found.end());
-}
-
-const std::vector<Command>& commands() {
-  const auto mode = [](Mode wanted) { return [=](Session& session) { session.set_mode(wanted); }; };
-  const auto kind = [](ElementKind wanted) {
-    return [=](Session& session) { session.set_element_kind(wanted); };
-  };
-  const auto transform = [](TransformKind wanted) {
-    return [=](Session& session) { session.begin_transform(wanted); };
-  };
-  const auto look = [](const char* view) {
-    return [=](Session& session) { session.look_from(view); };
-  };
-  const auto next_mode = [](Session& session) {
-    session.set_mode(static_cast<Mode>((static_cast<int>(session.mode()) + 1) % 3));
-  };
-  static const std::vector<Command> kCommands = {
-      {"Next mode: lattice, bind, pose", "tab", next_mode},
-      {"Lattice mode: shape the lattice at rest", "ctrl+1", mode(Mode::Lattice)},
-      {"Bind mode: see what the lattice holds", "ctrl+2", mode(Mode::Bind)},
-      {"Pose mode: bend", "ctrl+3", mode(Mode::Pose)},
-      {"New lattice: a box round the models", "n", &Session::new_box},
-      {"Bind all models to the lattice", "b", &Session::bind},
-      {"Move", "g", transform(TransformKind::Move)},
-      {"Turn", "r", transform(TransformKind::Turn)},
-      {"Scale", "s", transform(TransformKind::Scale)},
-      {"Extrude faces", "e", &Session::begin_extrusion},
-      {"Soft selection (wheel: radius)", "o", &Session::toggle_soft},
-      {"Back to rest", "alt+g", &Session::rest},
-      {"Select vertices", "1", kind(ElementKind::Vertex)},
-      {"Select edges", "2", kind(ElementKind::Edge)},
-      {"Select faces", "3", kind(ElementKind::Face)},
-      {"Select cells", "4", kind(ElementKind::Cell)},
-      {"Select all", "a", [](Session& session) { session.select_all(true); }},
-      {"Select nothing", "alt+a", [](Session& session) { session.select_all(false); }},
-      {"Select the rest instead", "ctrl+i", &Session::invert_selection},
-      {"Select what is connected", "l", &Session::select_connected},
-      {"Select through, or visible only", "alt+z", &Session::toggle_through},
-      {"Undo", "ctrl+z", &Session::undo},
-      {"Redo", "ctrl+shift+z ctrl+y", &Session::redo},
-      {"Save bent models and the pose", "ctrl+s", &Session::save},
-      {"See all", "home", &Session::frame_all},
-      {"See what is selected", "kp. .", &Session::frame_selected},
-      {"Look from the front", "kp1", look("front")},
-      {"Look from the back", "ctrl+kp1", look("back")},
-      {"Look from the right", "kp3", look("right")},
-      {"Look from the left", "ctrl+kp3", look("left")},
-      {"Look from above", "kp7", look("top")},
-      {"Look from below", "ctrl+kp7", look("bottom")},
-      {"With or without perspective", "kp5", &Session::toggle_projection},
-  };
-  return kCommands;
 }
 
 }  // namespace espalier::viewer
