@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "viewer/interact/bent_models.h"
-
 namespace espalier::viewer {
 namespace {
 
@@ -118,32 +116,40 @@ void Display::update_models(const Session& session) {
     auto found = models_.find(name);
     if (found == models_.end()) {
       MeshDrawing drawing(model.points(), model.faces(), {.frame = frame_});
-      const ItemId item = renderer_.add(drawing.triangle_mesh(model.points()));
-      const auto points = model.points();
-      found =
-          models_
-              .emplace(name,
-                       ShownModel{model, std::move(drawing), item, {points.begin(), points.end()}})
-              .first;
+      TriangleMesh mesh = drawing.triangle_mesh(model.points());
+      const ItemId item = renderer_.add(mesh);
+      found = models_
+                  .emplace(name, ShownModel{model,
+                                            std::move(drawing),
+                                            item,
+                                            {},
+                                            std::move(mesh.positions),
+                                            std::move(mesh.normals)})
+                  .first;
     }
     update_model(session, name, found->second);
   }
 }
 
 void Display::update_model(const Session& session, const std::string& name, ShownModel& shown) {
-  std::vector<glm::dvec3> points = shown_points(session, name);
-  if (points == shown.points) {
+  std::vector<Bend> bends = bends_of(session, name);
+  if (bends == shown.bends) {
     return;
   }
-  upload_difference(shown.drawing.positions(shown.points), shown.drawing.positions(points),
+  const std::vector<glm::dvec3> points = bent_points(shown.model.points(), bends);
+  std::vector<glm::vec3> positions = shown.drawing.positions(points);
+  std::vector<glm::vec3> normals = shown.drawing.normals(points);
+  upload_difference(shown.positions, positions,
                     [&](std::size_t first, std::span<const glm::vec3> values) {
                       renderer_.update_positions(shown.item, first, values);
                     });
-  upload_difference(shown.drawing.normals(shown.points), shown.drawing.normals(points),
+  upload_difference(shown.normals, normals,
                     [&](std::size_t first, std::span<const glm::vec3> values) {
                       renderer_.update_normals(shown.item, first, values);
                     });
-  shown.points = std::move(points);
+  shown.bends = std::move(bends);
+  shown.positions = std::move(positions);
+  shown.normals = std::move(normals);
 }
 
 void Display::update_lattice(const Session& session) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/interact/bent_models.h"
 #include "viewer/interact/session.h"
 #include "viewer/render/mesh_drawing.h"
 #include "viewer/render/renderer.h"
@@ -26,7 +27,9 @@ class Display {
     Model model;
     MeshDrawing drawing;
     ItemId item;
-    std::vector<glm::dvec3> points;
+    std::vector<Bend> bends;           // what the item shows
+    std::vector<glm::vec3> positions;  // as uploaded
+    std::vector<glm::vec3> normals;
   };
   void update_frame(const Session& session);
   void update_models(const Session& session);
