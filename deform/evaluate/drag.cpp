@@ -18,10 +18,6 @@
 namespace espalier {
 namespace {
 
-/// Determinants below count as folded at mouse-down: round-off in J could have made them.
-constexpr double kLeastDeterminant = 1e-12;
-/// How much of the largest safe step is left out, against round-off.
-constexpr double kGuard = 1e-7;
 /// A step where a drag stopped is safe once more: it may be longer by this part, from round-off.
 constexpr double kSameStep = 1e-9;
 constexpr double kFarthest = 1e12;  // diagonals
@@ -29,11 +25,6 @@ constexpr double kFarthest = 1e12;  // diagonals
 constexpr std::size_t kPointsPerThread = 65536;
 /// Of a normal's part m, as a fraction of the diagonal, that its part n is not made smaller than.
 constexpr double kLeastTurn = 1e-6;
-
-/// The columns of the cofactor matrix are the cross products of a matrix's columns.
-glm::dmat3 cofactors(const glm::dmat3& J) {
-  return {glm::cross(J[1], J[2]), glm::cross(J[2], J[0]), glm::cross(J[0], J[1])};
-}
 
 /// The first row.
 glm::dvec3 slope_of_x(const glm::dmat3& slope) {
@@ -50,13 +41,6 @@ void put(std::vector<Real>& rows, std::size_t at, const glm::dvec3& vector) {
 template <class Real>
 Real* numbers(std::span<glm::vec<3, Real>> points, std::size_t first) {
   return points.empty() ? nullptr : glm::value_ptr(points[first]);
-}
-
-void require_margin(double margin) {
-  if (!(margin >= 0 && margin < 1)) {
-    throw ParameterError("the margin is " + std::to_string(margin) +
-                         ", must be at least 0 and less than 1");
-  }
 }
 
 }  // namespace
@@ -204,7 +188,7 @@ double Drag<Real>::safe_fraction(const glm::dvec3& displacement, double margin) 
       8 * std::numeric_limits<Real>::epsilon() * steepest_ * glm::length(displacement);
   const double rounded =
       n_segments == 0 ? 0 : static_cast<double>(*std::max_element(falls.begin(), falls.end()));
-  if (rounded + rounding < (1 - margin) * (1 - kGuard)) {
+  if (rounded + rounding < (1 - margin) * (1 - kFoldGuard)) {
     return 1;
   }
   double fall = 0;
@@ -214,7 +198,7 @@ double Drag<Real>::safe_fraction(const glm::dvec3& displacement, double margin) 
                                                          glm::value_ptr(displacement)));
     }
   }
-  const double limit = (1 - margin) * (1 - kGuard);
+  const double limit = (1 - margin) * (1 - kFoldGuard);
   return fall > (1 + kSameStep) * limit ? limit / fall : 1;
 }
 
@@ -298,18 +282,7 @@ void Drag<Real>::mark(const glm::dvec3& displacement, std::span<std::uint8_t> fo
 
 template <class Real>
 void Drag<Real>::require_possible(const DraggedPoints<Real>& out) const {
-  const auto check = [this](std::size_t n, bool is_possible, const std::string& what) {
-    if (n != 0 && n != n_points_) {
-      throw ParameterError("room for " + std::to_string(n) + " " + what + " given for " +
-                           std::to_string(n_points_) + " points");
-    }
-    if (n != 0 && !is_possible) {
-      throw ParameterError("the drag was begun without what " + what + " need");
-    }
-  };
-  check(out.points.size(), true, "points");
-  check(out.normals.size(), !turns_.empty() || runs_.empty(), "normals");
-  check(out.folded.size(), has_folds_, "marks");
+  require_fits(out, n_points_, !turns_.empty() || runs_.empty(), has_folds_);
 }
 
 template <class Real>

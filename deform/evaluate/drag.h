@@ -15,15 +15,6 @@
 
 namespace espalier {
 
-/// What an update is to write, each #points or empty: not wanted. Only points that the selection
-/// reaches are written.
-template <class Real>
-struct DraggedPoints {
-  std::span<glm::vec<3, Real>> points = {};
-  std::span<glm::vec<3, Real>> normals = {};  ///< cof(J) n, of length 1, or zero
-  std::span<std::uint8_t> folded = {};        ///< 1 where det J ≤ 0, else 0
-};
-
 /// How far an update went.
 struct DragStep {
   double fraction = 1;         ///< of the displacement asked for

@@ -1,5 +1,6 @@
 #include "deform/evaluate/drag_model.h"
 
+#include <glm/geometric.hpp>
 #include <string>
 
 #include "deform/evaluate/displace.h"
@@ -60,5 +61,36 @@ void require_valid(const DragModel& model, std::span<const double> selection) {
     }
   }
 }
+
+void require_margin(double margin) {
+  if (!(margin >= 0 && margin < 1)) {
+    throw ParameterError("the margin is " + std::to_string(margin) +
+                         ", must be at least 0 and less than 1");
+  }
+}
+
+glm::dmat3 cofactors(const glm::dmat3& J) {
+  return {glm::cross(J[1], J[2]), glm::cross(J[2], J[0]), glm::cross(J[0], J[1])};
+}
+
+template <class Real>
+void require_fits(const DraggedPoints<Real>& out, std::size_t n_points, bool has_normals,
+                  bool has_folds) {
+  const auto check = [n_points](std::size_t n, bool is_possible, const std::string& what) {
+    if (n != 0 && n != n_points) {
+      throw ParameterError("room for " + std::to_string(n) + " " + what + " given for " +
+                           std::to_string(n_points) + " points");
+    }
+    if (n != 0 && !is_possible) {
+      throw ParameterError("the drag was begun without what " + what + " need");
+    }
+  };
+  check(out.points.size(), true, "points");
+  check(out.normals.size(), has_normals, "normals");
+  check(out.folded.size(), has_folds, "marks");
+}
+
+template void require_fits(const DraggedPoints<float>&, std::size_t, bool, bool);
+template void require_fits(const DraggedPoints<double>&, std::size_t, bool, bool);
 
 }  // namespace espalier

@@ -4,6 +4,7 @@
 /// selected control points [THB18].
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -12,6 +13,11 @@
 #include "deform/evaluate/combine.h"
 
 namespace espalier {
+
+/// Determinants below count as folded at mouse-down: round-off in J could have made them.
+inline constexpr double kLeastDeterminant = 1e-12;
+/// How much of the largest safe step is left out, against round-off.
+inline constexpr double kFoldGuard = 1e-7;
 
 /// A model that lattices bend, as combined_points() takes it. All displacements are those at
 /// mouse-down. Points of a fringe follow as they do in every evaluation.
@@ -48,5 +54,25 @@ struct DragField {
 /// them, for normals of another number than points, and for a selection of another number than
 /// control points or not in [0, 1]. Strengths and weights: as combined_points().
 void require_valid(const DragModel& model, std::span<const double> selection);
+
+/// Throws ParameterError unless 0 ≤ margin < 1.
+void require_margin(double margin);
+
+/// The cofactor matrix: the inverse transpose times the determinant.
+[[nodiscard]] glm::dmat3 cofactors(const glm::dmat3& J);
+
+/// What an update is to write, each #points or empty: not wanted. Only points that the selection
+/// reaches are written.
+template <class Real>
+struct DraggedPoints {
+  std::span<glm::vec<3, Real>> points = {};
+  std::span<glm::vec<3, Real>> normals = {};  ///< cof(J) n, of length 1, or zero
+  std::span<std::uint8_t> folded = {};        ///< 1 where det J ≤ 0, else 0
+};
+
+/// Throws ParameterError for spans of another length than n_points, and for what is not possible.
+template <class Real>
+void require_fits(const DraggedPoints<Real>& out, std::size_t n_points, bool has_normals,
+                  bool has_folds);
 
 }  // namespace espalier

@@ -187,18 +187,31 @@ TEST_P(DragOf, tiny_and_huge_lattices_equals_a_full_evaluation) {
   }
 }
 
+/// A point in each of about a hundred patches of a volume, bent by some noise.
+Example patch_example(Volume volume, double noise) {
+  Example example;
+  Binding binding;
+  for (std::size_t patch = 0; patch < volume.n_patches(); patch += 1 + volume.n_patches() / 100) {
+    binding.points.push_back(static_cast<std::int32_t>(binding.points.size()));
+    binding.status.push_back(PointStatus::Inside);
+    binding.patches.push_back(static_cast<std::int32_t>(patch));
+    binding.uvw.emplace_back(0.3, 0.6, 0.45);
+    example.rest.push_back(volume.bezier(patch, volume.rest_points()).value(binding.uvw.back()));
+  }
+  example.normals = random_normals(example.rest.size());
+  const auto rest = volume.rest_controls();
+  Points displacements = volume.displacements(test::jittered({rest.begin(), rest.end()}, noise, 3));
+  example.selection.assign(volume.n_controls(), 0);
+  example.motions = {{std::make_shared<const Volume>(std::move(volume)),
+                      std::make_shared<const Binding>(std::move(binding)),
+                      std::move(displacements)}};
+  return example;
+}
+
 TEST_P(DragOf, lattices_of_any_topology_equals_a_full_evaluation) {
-  for (const test::NamedLattice& named : test::lattice_families()) {
-    SCOPED_TRACE(named.name);
-    Example example;
-    Volume volume = freeze_adaptive(named.lattice);
-    for (std::size_t patch = 0; patch < volume.n_patches(); ++patch) {
-      example.rest.push_back(
-          volume.bezier(patch, volume.rest_points()).value(glm::dvec3(0.3, 0.6, 0.45)));
-    }
-    example.normals = random_normals(example.rest.size());
-    example.motions.push_back(bent(std::move(volume), example.rest, 0.01, 3));
-    example.selection.assign(example.volume().n_controls(), 0);
+  for (SubdivisionLattice lattice :
+       {test::pyramid_on_cube(), test::prism(test::flower_section(3), 1)}) {
+    Example example = patch_example(freeze_adaptive(lattice), 0.01);
     example.selection[0] = 1;
     const glm::dvec3 by(0.1, 0.05, -0.07);
     const Drag<double> drag(example.model(), example.selection, GetParam());
@@ -418,21 +431,7 @@ TEST_P(DragOf, singular_rest_makes_no_nonsense) {
   for (glm::dvec3& point : flat) {
     point.z = 0;
   }
-  Example example;
-  const Volume volume = test::spline_volume({2, 2, 2}, flat);
-  Binding binding;
-  for (std::size_t patch = 0; patch < volume.n_patches(); ++patch) {
-    binding.status.push_back(PointStatus::Inside);
-    binding.points.push_back(static_cast<std::int32_t>(patch));
-    binding.patches.push_back(static_cast<std::int32_t>(patch));
-    binding.uvw.emplace_back(0.3, 0.4, 0.5);
-    example.rest.push_back(volume.bezier(patch, volume.rest_points()).value(binding.uvw.back()));
-  }
-  example.normals = random_normals(example.rest.size());
-  example.motions = {{std::make_shared<const Volume>(volume),
-                      std::make_shared<const Binding>(binding),
-                      Points(volume.n_points(), glm::dvec3(0))}};
-  example.selection.assign(volume.n_controls(), 0);
+  Example example = patch_example(test::spline_volume({2, 2, 2}, flat), 0);
   example.selection[13] = 1;
   const Drag<float> drag(example.model(), example.selection, GetParam());
   ASSERT_EQ(drag.reached().size(), 8u);
