@@ -32,7 +32,7 @@ glm::dvec3 slope_of_x(const glm::dmat3& slope) {
 }
 
 template <class Real>
-void put(std::vector<Real>& rows, std::size_t at, const glm::dvec3& vector) {
+void put(AlignedVector<Real>& rows, std::size_t at, const glm::dvec3& vector) {
   for (int c = 0; c < 3; ++c) {
     rows[at + static_cast<std::size_t>(c) * kDragBlock] = static_cast<Real>(vector[c]);
   }

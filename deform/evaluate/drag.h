@@ -11,6 +11,7 @@
 
 #include "deform/evaluate/drag_kernels.h"
 #include "deform/evaluate/drag_model.h"
+#include "lattice/core/cache_aligned.h"
 #include "lattice/core/instruction_set.h"
 
 namespace espalier {
@@ -101,8 +102,8 @@ class Drag {
   double steepest_ = 0;  ///< the largest |p|
   bool has_folds_ = false;
   std::vector<Run> runs_;
-  std::vector<Real> places_, turns_, folds_;  ///< blocks (drag_kernels.h)
-  std::vector<double> exact_folds_;
+  AlignedVector<Real> places_, turns_, folds_;  ///< blocks (drag_kernels.h)
+  AlignedVector<double> exact_folds_;
   std::vector<FoldedPoint> folded_;  ///< at mouse-down
 };
 
