@@ -3,41 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
-#include <new>
 #include <random>
 
 #include "deform/evaluate/displace.h"
 #include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
+#include "tests/deform/allocations.h"
 #include "tests/support/families.h"
 #include "tests/support/spline_volume.h"
-
-namespace {
-
-std::atomic<std::size_t> allocations = 0;
-
-}  // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace espalier {
 namespace {
@@ -289,11 +267,11 @@ TEST_P(EvaluatorOnEverySet, allocates_nothing_in_a_frame) {
   Results<float> results = evaluated(evaluator, motion);
   set_thread_count(1);  // which threads work on what is chance
   evaluator.evaluate(motion, results.all());
-  const std::size_t before = allocations;
+  const std::size_t before = test::n_allocations();
   motion.set(example.displacements);
   evaluator.evaluate(motion, results.all());
   evaluator.evaluate(motion, results.all(), Scope::Changed);
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::n_allocations(), before);
   set_thread_count(0);
 }
 
