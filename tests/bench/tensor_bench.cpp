@@ -1,5 +1,7 @@
 /// How fast hierarchies of B-splines are built, frozen, refined and evaluated; evaluation also as a
-/// ratio to asking every function of the hierarchy. Each time is the best of a few repeats.
+/// ratio to asking every function of the hierarchy. And how fast points are embedded in lattices
+/// along the axes, beside the tree's search and beside a loop that only divides by even knots. Each
+/// time is the best of a few repeats.
 
 #include <fmt/format.h>
 
@@ -10,6 +12,7 @@
 #include <random>
 #include <vector>
 
+#include "deform/embed/embed.h"
 #include "lattice/core/parallel.h"
 #include "lattice/tensor/thb_lattice.h"
 
@@ -142,6 +145,52 @@ void report_evaluation(const ThbLattice& lattice) {
              by_all / by_patches, std::isfinite(sum.x) ? "" : " (not finite)");
 }
 
+/// What anyone would write for one lattice with even knots on the unit cube.
+Binding places_by_division(const std::vector<glm::dvec3>& points, int n) {
+  Binding binding;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::dvec3 at = static_cast<double>(n) * points[i];
+    const glm::ivec3 cell = glm::min(glm::ivec3(at), n - 1);
+    binding.status.push_back(PointStatus::Inside);
+    binding.points.push_back(static_cast<std::int32_t>(i));
+    binding.patches.push_back(cell.x + n * (cell.y + n * cell.z));
+    binding.uvw.push_back(at - glm::dvec3(cell));
+  }
+  return binding;
+}
+
+void report_embedding(const char* name, const Volume& volume, double by_division) {
+  const std::vector<glm::dvec3> points = random_places(1000000);
+  const PointLocator by_grid(volume);
+  const PointLocator by_tree(volume, PatchSearch::Tree);
+  const double tree = time_of(1, [&] { static_cast<void>(by_tree.locate(points)); });
+  const double grid = time_of(5, [&] { static_cast<void>(by_grid.locate(points)); });
+  const double whole = time_of(5, [&] { static_cast<void>(embed(by_grid, points)); });
+  fmt::print(
+      "{}: {} patches, million points a second: locate {:.1f} (tree {:.2f}), embed {:.1f}, "
+      "{:.1f} times as long as dividing\n",
+      name, volume.n_patches(), 1e-6 * static_cast<double>(points.size()) / grid,
+      1e-6 * static_cast<double>(points.size()) / tree,
+      1e-6 * static_cast<double>(points.size()) / whole, whole / by_division);
+}
+
+void report_embedding(const ThbLattice& levels) {
+  const std::vector<glm::dvec3> points = random_places(1000000);
+  const double by_division = time_of(5, [&] { static_cast<void>(places_by_division(points, 17)); });
+  const TensorAxis axis = TensorAxis::make(20, 3, Ends::Open);
+  const TensorAxis bezier = TensorAxis::make(4, 3, Ends::Open);
+  OrientedBox turned;
+  turned.axes = glm::dmat3(0.8, 0.6, 0, -0.6, 0.8, 0, 0, 0, 1);
+  turned.half_sizes = glm::dvec3(1);
+  const auto frozen = [](TensorKind kind, const TensorAxis& along, const OrientedBox& box) {
+    return freeze(make_tensor_lattice(kind, {along, along, along}, box));
+  };
+  report_embedding("B-spline", frozen(TensorKind::BSpline, axis, {}), by_division);
+  report_embedding("turned  ", frozen(TensorKind::BSpline, axis, turned), by_division);
+  report_embedding("Bézier  ", frozen(TensorKind::Bezier, bezier, {}), by_division);
+  report_embedding("THB     ", freeze(levels), by_division);
+}
+
 }  // namespace
 }  // namespace espalier
 
@@ -150,4 +199,5 @@ int main() {
   const espalier::ThbLattice lattice = espalier::three_local_levels();
   espalier::report_building(lattice);
   espalier::report_evaluation(lattice);
+  espalier::report_embedding(lattice);
 }
