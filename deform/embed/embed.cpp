@@ -1,32 +1,33 @@
 #include "deform/embed/embed.h"
 
-#include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace espalier {
 namespace {
 
-/// The held points, sorted by patch, then by point.
-Binding sorted_by_patch(const std::vector<Location>& locations) {
+/// The held points, sorted by patch, then by point. n_patches: of the volume.
+Binding sorted_by_patch(const std::vector<Location>& locations, std::size_t n_patches) {
   Binding binding;
   binding.status.reserve(locations.size());
-  for (std::size_t i = 0; i < locations.size(); ++i) {
-    binding.status.push_back(locations[i].status);
-    if (locations[i].patch >= 0) {
-      binding.points.push_back(static_cast<std::int32_t>(i));
+  std::vector<std::size_t> next(n_patches + 1, 0);  // where a patch's next point goes
+  for (const Location& location : locations) {
+    binding.status.push_back(location.status);
+    if (location.patch >= 0) {
+      ++next[static_cast<std::size_t>(location.patch) + 1];
     }
   }
-  const auto location = [&](std::int32_t point) -> const Location& {
-    return locations[static_cast<std::size_t>(point)];
-  };
-  std::stable_sort(
-      binding.points.begin(), binding.points.end(),
-      [&](std::int32_t a, std::int32_t b) { return location(a).patch < location(b).patch; });
-  binding.patches.reserve(binding.points.size());
-  binding.uvw.reserve(binding.points.size());
-  for (const std::int32_t point : binding.points) {
-    binding.patches.push_back(location(point).patch);
-    binding.uvw.push_back(location(point).uvw);
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  binding.points.resize(next.back());
+  binding.patches.resize(next.back());
+  binding.uvw.resize(next.back());
+  for (std::size_t i = 0; i < locations.size(); ++i) {
+    if (const std::int32_t patch = locations[i].patch; patch >= 0) {
+      const std::size_t at = next[static_cast<std::size_t>(patch)]++;
+      binding.points[at] = static_cast<std::int32_t>(i);
+      binding.patches[at] = patch;
+      binding.uvw[at] = locations[i].uvw;
+    }
   }
   return binding;
 }
@@ -44,7 +45,7 @@ StatusCounts Binding::counts() const {
 Binding embed(const PointLocator& locator, std::span<const glm::dvec3> points,
               const Progress& progress) {
   progress.update("embed", 0.0);
-  return sorted_by_patch(locator.locate(points, progress));
+  return sorted_by_patch(locator.locate(points, progress), locator.volume().n_patches());
 }
 
 Binding embed(const Volume& volume, std::span<const glm::dvec3> points, const Progress& progress) {

@@ -46,7 +46,7 @@ struct Binding {
 };
 
 /// Finds every point's place, as PointLocator tells. The same result for any number of threads.
-/// points: model units, finite. O(#points log #patches). Tells `progress` "embed".
+/// points: model units, finite. O(#points log #patches + #patches). Tells `progress` "embed".
 [[nodiscard]] Binding embed(const PointLocator& locator, std::span<const glm::dvec3> points,
                             const Progress& progress = {});
 

@@ -41,7 +41,8 @@ std::vector<glm::dvec3> combined_points(std::span<const glm::dvec3> rest_points,
   require_valid(rest_points.size(), motions, influence);
   std::vector<glm::dvec3> sums(rest_points.size(), glm::dvec3(0));
   for (const LatticeMotion& motion : motions) {
-    const auto moves = point_displacements(*motion.volume, *motion.binding, motion.displacements);
+    const auto moves = point_displacements(*motion.volume, *motion.binding, motion.displacements,
+                                           motion.pose_weights);
     parallel_for(sums.size(), [&](std::size_t i) { sums[i] += moves[i]; });
   }
   std::vector<glm::dvec3> points(rest_points.begin(), rest_points.end());
@@ -60,8 +61,8 @@ std::vector<glm::dmat3> combined_gradients(std::size_t n_points,
   require_valid(n_points, motions, influence);
   std::vector<glm::dmat3> sums(n_points, glm::dmat3(0));
   for (const LatticeMotion& motion : motions) {
-    const auto gradients =
-        deformation_gradients(*motion.volume, *motion.binding, motion.displacements);
+    const auto gradients = deformation_gradients(*motion.volume, *motion.binding,
+                                                 motion.displacements, motion.pose_weights);
     parallel_for(n_points, [&](std::size_t i) { sums[i] += gradients[i] - glm::dmat3(1); });
   }
   parallel_for(n_points,

@@ -19,6 +19,7 @@ struct LatticeMotion {
   std::shared_ptr<const Volume> volume;
   std::shared_ptr<const Binding> binding;
   std::vector<glm::dvec3> displacements;  ///< as Volume::displacements() makes them
+  std::vector<double> pose_weights = {};  ///< as displaced_points() takes them
 };
 
 /// How much of a motion the points follow.

@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::size_t kPointsPerRange = 4096;
 
-bool is_moved(const Volume& volume, std::size_t patch, std::span<const glm::dvec3> displacements) {
-  const auto block = volume.block(patch);
-  return std::any_of(block.begin(), block.end(), [&](std::int32_t point) {
-    return displacements[static_cast<std::size_t>(point)] != glm::dvec3(0);
-  });
+VolumeMotion<double> motion_of(const Volume& volume, std::span<const glm::dvec3> displacements,
+                               std::span<const double> pose_weights) {
+  return pose_weights.empty()
+             ? VolumeMotion<double>(displacements)
+             : VolumeMotion<double>(displacements, {volume.weights(), pose_weights});
 }
 
 /// Calls visit(patch, begin, end) for the points [begin, end) of each patch that moves, in parallel
@@ -24,7 +24,7 @@ bool is_moved(const Volume& volume, std::size_t patch, std::span<const glm::dvec
 /// ascending. Make: a visitor for one thread.
 template <class Make>
 void for_each_moved_run(const Volume& volume, std::span<const std::int32_t> patches,
-                        std::span<const glm::dvec3> displacements, const Make& make) {
+                        const VolumeMotion<double>& motion, const Make& make) {
   parallel_ranges(patches.size(), kPointsPerRange, [&](std::size_t begin, std::size_t end) {
     auto visit = make();
     for (std::size_t next = begin; begin < end; begin = next) {
@@ -32,7 +32,7 @@ void for_each_moved_run(const Volume& volume, std::span<const std::int32_t> patc
         ++next;
       }
       const auto patch = static_cast<std::size_t>(patches[begin]);
-      if (is_moved(volume, patch, displacements)) {
+      if (motion.is_any_moved(volume.block(patch))) {
         visit(patch, begin, next);
       }
     }
@@ -88,9 +88,8 @@ void for_each_move(const Volume& volume, std::span<const std::int32_t> patches,
 
 /// Calls take(point, move) for every bound point in a moved patch.
 template <class Take>
-void for_each_move(const Volume& volume, const Binding& binding,
-                   std::span<const glm::dvec3> displacements, const Take& take) {
-  const VolumeMotion<double> motion(displacements);
+void for_each_move(const Volume& volume, const Binding& binding, const VolumeMotion<double>& motion,
+                   const Take& take) {
   for_each_move(volume, binding.patches, binding.uvw, motion,
                 [&](std::size_t i, const glm::dvec3& move) {
                   take(static_cast<std::size_t>(binding.points[i]), move);
@@ -104,12 +103,11 @@ void for_each_move(const Volume& volume, const Binding& binding,
 
 /// By the product rule: ∂(weight · move)/∂x for the fringe's points.
 void add_fringe_gradients(const Volume& volume, const Fringe& fringe,
-                          std::span<const glm::dvec3> displacements,
-                          std::vector<glm::dmat3>& gradients) {
-  for_each_moved_run(volume, fringe.patches, displacements, [&] {
+                          const VolumeMotion<double>& motion, std::vector<glm::dmat3>& gradients) {
+  for_each_moved_run(volume, fringe.patches, motion, [&] {
     return
         [&, moves = BezierPatch()](std::size_t patch, std::size_t begin, std::size_t end) mutable {
-          volume.bezier(patch, displacements, moves);
+          find_motion(volume, motion, patch, moves);
           for (std::size_t i = begin; i < end; ++i) {
             glm::dvec3 move;
             glm::dmat3 by_parameters;
@@ -130,9 +128,11 @@ void add_fringe_gradients(const Volume& volume, const Fringe& fringe,
 
 std::vector<glm::dvec3> displaced_points(const Volume& volume, const Binding& binding,
                                          std::span<const glm::dvec3> rest_points,
-                                         std::span<const glm::dvec3> displacements) {
+                                         std::span<const glm::dvec3> displacements,
+                                         std::span<const double> pose_weights) {
+  const VolumeMotion<double> motion = motion_of(volume, displacements, pose_weights);
   std::vector<glm::dvec3> points(rest_points.begin(), rest_points.end());
-  for_each_move(volume, binding, displacements, [&](std::size_t point, const glm::dvec3& move) {
+  for_each_move(volume, binding, motion, [&](std::size_t point, const glm::dvec3& move) {
     if (move != glm::dvec3(0)) {
       points[point] += move;
     }
@@ -141,17 +141,20 @@ std::vector<glm::dvec3> displaced_points(const Volume& volume, const Binding& bi
 }
 
 std::vector<glm::dvec3> point_displacements(const Volume& volume, const Binding& binding,
-                                            std::span<const glm::dvec3> displacements) {
+                                            std::span<const glm::dvec3> displacements,
+                                            std::span<const double> pose_weights) {
+  const VolumeMotion<double> motion = motion_of(volume, displacements, pose_weights);
   std::vector<glm::dvec3> moves(binding.status.size(), glm::dvec3(0));
-  for_each_move(volume, binding, displacements,
+  for_each_move(volume, binding, motion,
                 [&](std::size_t point, const glm::dvec3& move) { moves[point] = move; });
   return moves;
 }
 
 std::vector<glm::dmat3> deformation_gradients(const Volume& volume, const Binding& binding,
-                                              std::span<const glm::dvec3> displacements) {
+                                              std::span<const glm::dvec3> displacements,
+                                              std::span<const double> pose_weights) {
   std::vector<glm::dmat3> gradients(binding.status.size(), glm::dmat3(1));
-  const VolumeMotion<double> motion(displacements);
+  const VolumeMotion<double> motion = motion_of(volume, displacements, pose_weights);
   for_each_moved_range(
       volume, binding.patches, binding.uvw, motion, [&](const MovedPlaces& places) {
         std::vector<glm::dmat3> found(places.indices.size());
@@ -162,7 +165,7 @@ std::vector<glm::dmat3> deformation_gradients(const Volume& volume, const Bindin
           gradients[static_cast<std::size_t>(binding.points[places.indices[i]])] = found[i];
         }
       });
-  add_fringe_gradients(volume, binding.fringe, displacements, gradients);
+  add_fringe_gradients(volume, binding.fringe, motion, gradients);
   return gradients;
 }
 

@@ -110,7 +110,7 @@ class Frame {
 
   void evaluate_as_general(const PointRun& run, const Targets<Real>& wanted) const {
     thread_local BezierPatch moves;
-    volume_.bezier(static_cast<std::size_t>(run.patch), motion_.displacements(), moves);
+    find_motion(volume_, motion_, static_cast<std::size_t>(run.patch), moves);
     PatchPoints<Real> points = part(run, 0, run.n_points, offset(wanted, run.first_point));
     if (!wanted.want_frames()) {
       points.slopes = nullptr;
@@ -224,6 +224,9 @@ void Evaluator<Real>::evaluate(const VolumeMotion<Real>& motion, const MovedPoin
   if (motion.displacements().size() != volume_->n_points()) {
     throw ParameterError("a motion of " + std::to_string(motion.displacements().size()) +
                          " points given for a volume of " + std::to_string(volume_->n_points()));
+  }
+  if (!motion.weights().empty() && !volume_->is_rational()) {
+    throw ParameterError("a motion with weights given for a volume that is not rational");
   }
   if (runs_.runs.empty()) {
     return;

@@ -47,8 +47,9 @@ class Evaluator {
   [[nodiscard]] std::size_t n_points() const { return runs_.n_points; }
 
   /// One frame. motion: of the volume. Throws ParameterError for spans of another length, for what
-  /// BoundPoints did not ask for, and for a motion of another volume's size. Allocates nothing once
-  /// every thread has worked. O(#points written + #patches).
+  /// BoundPoints did not ask for, for a motion of another volume's size, and for one with weights
+  /// if the volume has none. Allocates nothing once every thread has worked, but where weights
+  /// change. O(#points written + #patches).
   void evaluate(const VolumeMotion<Real>& motion, const MovedPoints<Real>& moved,
                 Scope scope = Scope::All) const;
 

@@ -84,6 +84,11 @@ void require_valid(const TensorLattice& lattice);
 /// themselves. Throws as require_valid(). O(#patches · block).
 [[nodiscard]] Volume freeze(const TensorLattice& lattice);
 
+/// The pose's weights as the points of the frozen volume have them; empty
+/// if the pose has none of its own. volume: what the lattice froze into.
+[[nodiscard]] std::vector<double> posed_point_weights(const TensorLattice& lattice,
+                                                      const Volume& volume);
+
 /// A place by patch.
 struct PatchPlace {
   std::size_t patch = 0;

@@ -48,6 +48,8 @@ class PatchFrame {
   /// Whether the patch is its affine map, to a few units of round-off.
   [[nodiscard]] bool is_affine() const { return is_affine_; }
   [[nodiscard]] const AffineMap& map() const { return map_; }
+  /// Of map().axes; zero if they are dependent.
+  [[nodiscard]] const glm::dmat3& inverse_axes() const { return inverse_; }
 
   /// A lower bound of the distance between two values inside the unit cube whose parameters differ
   /// by `step` along `axis` alone; 0 where nothing is known.

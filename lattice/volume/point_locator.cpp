@@ -1,4 +1,5 @@
-// Finding points in a volume: a box tree, closed-form guesses, Newton's method, subdivision.
+// Finding points in a volume: a grid of boxes or a tree, closed-form guesses, Newton's method,
+// subdivision.
 
 #include "lattice/volume/point_locator.h"
 
@@ -21,18 +22,11 @@ namespace {
 constexpr double kExact = 1e-14;
 constexpr double kBorder = 1e-9;
 
-constexpr std::size_t kTrilinear = 8;
-
 /// Of a sum of coordinates as large as these.
 double round_off(std::span<const glm::dvec3> points) {
   const Box box = box_of(points);
   const glm::dvec3 largest = glm::max(glm::abs(box.min), glm::abs(box.max));
   return 8 * std::numeric_limits<double>::epsilon() * std::max({largest.x, largest.y, largest.z});
-}
-
-std::size_t n_bezier_points(const Volume& volume, std::size_t i) {
-  const auto [p, q, r] = volume.degree(i);
-  return static_cast<std::size_t>((p + 1) * (q + 1) * (r + 1));
 }
 
 /// A patch's preimage of x, in [0,1]³: in closed form if the patch is affine, else by Newton's
@@ -65,49 +59,6 @@ std::string_view name_of(PointStatus status) {
   static constexpr std::array<std::string_view, 4> kNames = {"inside", "border", "outside",
                                                              "unconverged"};
   return kNames[static_cast<std::size_t>(status)];
-}
-
-RestPatches::RestPatches(const Volume& volume, double slack)
-    : volume_(&volume), kept_(volume.n_patches(), -1) {
-  std::size_t n_points = 0;
-  for (std::size_t i = 0; i < kept_.size(); ++i) {
-    if (const std::size_t n = n_bezier_points(volume, i); n > kTrilinear) {
-      kept_[i] = static_cast<std::int32_t>(first_.size());
-      first_.push_back(n_points);
-      n_points += n;
-    }
-  }
-  points_.resize(n_points);
-  weights_.resize(volume.is_rational() ? n_points : 0);
-  frames_.resize(first_.size());
-  parallel_ranges(kept_.size(), 256, [&](std::size_t begin, std::size_t end) {
-    BezierPatch patch;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (kept_[i] >= 0) {
-        const auto k = static_cast<std::size_t>(kept_[i]);
-        volume.bezier(i, volume.rest_points(), patch);
-        std::copy(patch.points.begin(), patch.points.end(),
-                  points_.begin() + static_cast<std::ptrdiff_t>(first_[k]));
-        std::copy(patch.weights.begin(), patch.weights.end(),
-                  weights_.begin() + static_cast<std::ptrdiff_t>(first_[k]));
-        frames_[k] = PatchFrame(patch, slack, volume.patch(i).reach());
-      }
-    }
-  });
-}
-
-BezierView RestPatches::view(std::size_t i, BezierPatch& scratch) const {
-  if (kept_[i] < 0) {
-    volume_->bezier(i, volume_->rest_points(), scratch);
-    return scratch;
-  }
-  const std::size_t first = first_[static_cast<std::size_t>(kept_[i])];
-  const std::size_t n = n_bezier_points(*volume_, i);
-  const std::span<const double> weights(weights_);
-  return {volume_->degree(i),
-          {&points_[first], n},
-          volume_->patch(i).is_pyramid,
-          weights.empty() ? weights : weights.subspan(first, n)};
 }
 
 /// The search for one point. Its memory is kept from point to point.
@@ -262,28 +213,40 @@ class PointLocator::Query {
   bool may_be_missed_ = false;
 };
 
-PointLocator::PointLocator(const Volume& volume)
+PointLocator::PointLocator(const Volume& volume, PatchSearch search)
     : volume_(&volume),
       exact_(kExact * volume.diagonal() + round_off(volume.rest_controls())),
       border_(kBorder * volume.diagonal()),
       patches_(volume, 2 * border_),
+      grid_(search == PatchSearch::Tree ? PatchGrid()
+                                        : PatchGrid(patches_, 2 * border_ + 4 * exact_)),
       tree_(volume.patch_boxes()) {}
 
 Location PointLocator::locate(const glm::dvec3& x) const {
+  if (const auto inside = grid_.find(x)) {
+    return {PointStatus::Inside, inside->patch, inside->uvw, 0};
+  }
   return Query(*this).locate(x);
 }
 
 std::vector<Location> PointLocator::locate(std::span<const glm::dvec3> points,
                                            const Progress& progress) const {
   constexpr std::size_t kPointsPerUpdate = 1 << 16;
-  const std::vector<std::uint32_t> order = spatial_order(points);
+  // A grid is so quick that it does not pay to bring the points in order.
+  const std::vector<std::uint32_t> order =
+      grid_.is_empty() ? spatial_order(points) : std::vector<std::uint32_t>();
   std::vector<Location> locations(points.size());
   for (std::size_t first = 0; first < points.size(); first += kPointsPerUpdate) {
     const std::size_t n = std::min(kPointsPerUpdate, points.size() - first);
     parallel_ranges(n, 512, [&](std::size_t begin, std::size_t end) {
       Query query(*this);
       for (std::size_t k = first + begin; k < first + end; ++k) {
-        locations[order[k]] = query.locate(points[order[k]]);
+        const std::size_t i = order.empty() ? k : order[k];
+        if (const auto inside = grid_.find(points[i])) {
+          locations[i] = {PointStatus::Inside, inside->patch, inside->uvw, 0};
+        } else {
+          locations[i] = query.locate(points[i]);
+        }
       }
     });
     progress.update("embed", static_cast<double>(first + n) / static_cast<double>(points.size()));

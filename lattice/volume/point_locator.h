@@ -10,7 +10,8 @@
 
 #include "lattice/core/box_tree.h"
 #include "lattice/core/progress.h"
-#include "lattice/volume/patch_frame.h"
+#include "lattice/volume/patch_grid.h"
+#include "lattice/volume/rest_patches.h"
 #include "lattice/volume/volume.h"
 
 namespace espalier {
@@ -34,28 +35,10 @@ struct Location {
   int n_steps = 0;          ///< of Newton's method in that patch; 0 in an affine one
 };
 
-/// The patches of a volume at rest in Bézier form. Trilinear ones, of which there may be millions,
-/// are made when they are asked for, the others once.
-class RestPatches {
- public:
-  /// slack: as PatchFrame's. O(#patches).
-  RestPatches(const Volume& volume, double slack);
-
-  /// scratch: memory that the view may use.
-  [[nodiscard]] BezierView view(std::size_t i, BezierPatch& scratch) const;
-
-  /// The frame of a patch that is kept; nothing for a trilinear one.
-  [[nodiscard]] const PatchFrame* frame(std::size_t i) const {
-    return kept_[i] < 0 ? nullptr : &frames_[static_cast<std::size_t>(kept_[i])];
-  }
-
- private:
-  const Volume* volume_;
-  std::vector<std::int32_t> kept_;  // number among those kept, or -1
-  std::vector<std::size_t> first_;  // of those kept, in points_
-  std::vector<PatchFrame> frames_;
-  std::vector<glm::dvec3> points_;
-  std::vector<double> weights_;  // #points_, or empty
+/// How patches are searched; the answers are the same, bit for bit.
+enum class PatchSearch {
+  Quickest,  ///< by a grid where the patches stand in one (PatchGrid), else by a tree
+  Tree       ///< by a tree only: to compare with
 };
 
 /// Finds points' places in one volume at rest, which must outlive it. Points that several patches
@@ -65,11 +48,12 @@ class RestPatches {
 class PointLocator {
  public:
   /// O(#patches log #patches).
-  explicit PointLocator(const Volume& volume);
+  explicit PointLocator(const Volume& volume, PatchSearch search = PatchSearch::Quickest);
 
   [[nodiscard]] const Volume& volume() const { return *volume_; }
 
-  /// x: model units, finite. O(log #patches); does not allocate but where Newton's method fails.
+  /// x: model units, finite. O(log #patches), or O(1) in a grid; does not allocate but where
+  /// Newton's method fails.
   [[nodiscard]] Location locate(const glm::dvec3& x) const;
 
   /// The same for many points, in parallel; the same result for any number of threads. Tells
@@ -84,6 +68,7 @@ class PointLocator {
   double exact_;   // residual of an exact solution, a length
   double border_;  // within which a point is on the border, a length
   RestPatches patches_;
+  PatchGrid grid_;
   BoxTree tree_;
 };
 

@@ -44,10 +44,16 @@ BezierPatch difference(const BezierView& a, const BezierView& b) {
   return result;
 }
 
-BezierPatch rational_motion(const Volume& volume, std::size_t i, std::span<const glm::dvec3> points,
+BezierPatch rational_motion(const Volume& volume, std::size_t i,
+                            std::span<const glm::dvec3> displacements,
                             std::span<const double> weights) {
   BezierPatch posed;
-  volume.bezier(i, points, weights, posed);
+  BezierPatch moves;
+  volume.bezier(i, volume.rest_points(), weights, posed);
+  volume.bezier(i, displacements, weights, moves);
+  for (std::size_t k = 0; k < posed.points.size(); ++k) {
+    posed.points[k] += moves.points[k];
+  }
   return difference(posed, volume.bezier(i, volume.rest_points()));
 }
 

@@ -15,11 +15,11 @@ namespace espalier {
 /// have the same points and weights. Both of one degree, rational or not. O(#points²).
 [[nodiscard]] BezierPatch difference(const BezierView& a, const BezierView& b);
 
-/// X_pose − X_rest on patch i, for posed points with weights of their own: x' = x + its value. With
-/// weights as at rest it is what Volume::bezier() makes of displacements, which is linear and much
-/// cheaper. points, weights: #points of the volume.
+/// X_pose − X_rest on patch i, for points displaced and with weights of their own: x' = x + its
+/// value. With weights as at rest it is what Volume::bezier() makes of displacements, which is
+/// linear and much cheaper. displacements, weights: #points of the volume.
 [[nodiscard]] BezierPatch rational_motion(const Volume& volume, std::size_t i,
-                                          std::span<const glm::dvec3> points,
+                                          std::span<const glm::dvec3> displacements,
                                           std::span<const double> weights);
 
 }  // namespace espalier

@@ -32,7 +32,7 @@ TEST(RationalMotion, is_the_posed_place_minus_the_place_at_rest) {
     weights[i] *= 1 + 0.3 * std::cos(static_cast<double>(i));
   }
   for (std::size_t i = 0; i < volume.n_patches(); ++i) {
-    const BezierPatch motion = rational_motion(volume, i, pose, weights);
+    const BezierPatch motion = rational_motion(volume, i, volume.displacements(pose), weights);
     BezierPatch posed;
     volume.bezier(i, pose, weights, posed);
     const BezierPatch rest = volume.bezier(i, volume.rest_points());
@@ -49,12 +49,14 @@ TEST(RationalMotion, is_the_posed_place_minus_the_place_at_rest) {
 TEST(RationalMotion, is_exactly_zero_at_rest_and_linear_with_the_weights_at_rest) {
   const TensorLattice lattice = nurbs();
   const Volume volume = freeze(lattice);
-  const BezierPatch still = rational_motion(volume, 0, lattice.rest, lattice.weights);
+  const BezierPatch still =
+      rational_motion(volume, 0, volume.displacements(lattice.rest), lattice.weights);
   for (const glm::dvec3& point : still.points) {
     EXPECT_EQ(point, glm::dvec3(0));
   }
   const auto pose = test::jittered(lattice.rest, 0.2, 2);
-  const BezierPatch motion = rational_motion(volume, 0, pose, lattice.weights);
+  const BezierPatch motion =
+      rational_motion(volume, 0, volume.displacements(pose), lattice.weights);
   const BezierPatch linear = volume.bezier(0, volume.displacements(pose));
   const glm::dvec3 uvw(0.4, 0.7, 0.1);
   EXPECT_LT(glm::distance(motion.value(uvw), linear.value(uvw)), 1e-15);
