@@ -20,8 +20,19 @@ const Model& model_in(const Scene& scene, const std::string& name) {
   return find(scene.models, name, "model");
 }
 
-const SubdivisionLattice& lattice_in(const Scene& scene, const std::string& name) {
-  return *find(scene.lattices, name, "lattice");
+const Lattice& lattice_in(const Scene& scene, const std::string& name) {
+  return find(scene.lattices, name, "lattice");
+}
+
+const SubdivisionLattice& subdivision_lattice_in(const Scene& scene, const std::string& name,
+                                                 std::string_view what) {
+  const Lattice& lattice = lattice_in(scene, name);
+  const auto* subdivision = lattice.as<SubdivisionLattice>();
+  if (subdivision == nullptr) {
+    throw ParameterError(name + " is a " + std::string(lattice.type()) + " lattice; " +
+                         std::string(what) + " needs a subdivision lattice");
+  }
+  return *subdivision;
 }
 
 const Pose& pose_in(const Scene& scene, const std::string& name) {
@@ -35,10 +46,9 @@ Scene with_model(Scene scene, const std::string& name, Model model) {
   return scene;
 }
 
-Scene with_lattice(Scene scene, const std::string& name, SubdivisionLattice lattice) {
+Scene with_lattice(Scene scene, const std::string& name, Lattice lattice) {
   std::erase_if(scene.bound, [&](const auto& entry) { return entry.first.second == name; });
-  scene.lattices.insert_or_assign(name,
-                                  std::make_shared<const SubdivisionLattice>(std::move(lattice)));
+  scene.lattices.insert_or_assign(name, std::move(lattice));
   return scene;
 }
 

@@ -126,7 +126,7 @@ TEST(Operation, a_new_lattice_enters_the_scene_under_the_name_it_was_given) {
                                        {"max", std::vector<double>{1, 1, 6}},
                                        {"scheme", std::string("mj96")},
                                        {"output", std::string("tower")}}));
-  const SubdivisionLattice& lattice = lattice_in(scene, "tower");
+  const SubdivisionLattice& lattice = subdivision_lattice_in(scene, "tower");
   EXPECT_EQ(lattice.complex->n_cells(), 3u);
   EXPECT_EQ(lattice.rest.back(), glm::dvec3(1, 1, 6));
   EXPECT_EQ(lattice.scheme, Scheme::MacCrackenJoy);
