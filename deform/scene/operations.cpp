@@ -11,7 +11,7 @@ const std::vector<Operation>& operations() {
     std::vector<Operation> table;
     for (auto part :
          {inventory_operations(), tensor_operations(), lattice_operations(), refine_operations(),
-          building_operations(), deform_operations(), file_operations()}) {
+          building_operations(), pose_operations(), deform_operations(), file_operations()}) {
       std::move(part.begin(), part.end(), std::back_inserter(table));
     }
     return table;

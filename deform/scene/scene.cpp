@@ -1,6 +1,9 @@
 #include "deform/scene/scene.h"
 
+#include <cmath>
+
 #include "lattice/core/error.h"
+#include "lattice/core/text_scanner.h"
 
 namespace espalier {
 namespace {
@@ -12,6 +15,10 @@ const auto& find(const Map& map, const std::string& name, const char* what) {
     throw ParameterError(std::string("the scene has no ") + what + " named '" + name + "'");
   }
   return found->second;
+}
+
+bool is_coordinate(double x) {
+  return std::abs(x) <= kLargestCoordinate;  // false for what is not a number
 }
 
 }  // namespace
@@ -49,6 +56,23 @@ Scene with_model(Scene scene, const std::string& name, Model model) {
 Scene with_lattice(Scene scene, const std::string& name, Lattice lattice) {
   std::erase_if(scene.bound, [&](const auto& entry) { return entry.first.second == name; });
   scene.lattices.insert_or_assign(name, std::move(lattice));
+  return scene;
+}
+
+Scene with_pose(Scene scene, const std::string& lattice, std::vector<glm::dvec3> pose) {
+  const Lattice& found = lattice_in(scene, lattice);
+  const std::size_t n_controls = found.rest_points().size();
+  if (!pose.empty() && pose.size() != n_controls) {
+    throw ParameterError("a pose of " + std::to_string(pose.size()) + " points for " + lattice +
+                         ", which has " + std::to_string(n_controls));
+  }
+  for (std::size_t i = 0; i < pose.size(); ++i) {
+    if (!is_coordinate(pose[i].x) || !is_coordinate(pose[i].y) || !is_coordinate(pose[i].z)) {
+      throw ParameterError("point " + std::to_string(i) + " of " + lattice +
+                           " would be too far away, or nowhere");
+    }
+  }
+  scene.lattices.insert_or_assign(lattice, found.with_pose(std::move(pose)));
   return scene;
 }
 

@@ -142,6 +142,11 @@ Volume Lattice::freeze(const FreezeOptions& options, const Progress& progress) c
 Lattice Lattice::with_pose(std::vector<glm::dvec3> pose) const {
   return visit([&](auto lattice) {
     lattice.pose = std::move(pose);
+    if constexpr (requires { lattice.pose_weights; }) {
+      if (lattice.pose.empty()) {
+        lattice.pose_weights.clear();
+      }
+    }
     return Lattice(std::move(lattice));
   });
 }
