@@ -14,8 +14,9 @@
 #include "deform/model/model_file.h"
 #include "deform/scene/bind.h"
 #include "deform/scene/indexed_vector.h"
+#include "deform/scene/pose.h"
 #include "lattice/core/error.h"
-#include "lattice/io/lattice_file.h"
+#include "lattice/io/lattice.h"
 #include "lattice/topology/validate.h"
 #include "tools/command.h"
 
@@ -171,18 +172,21 @@ ExitStatus status_of(const CheckReport& report) {
 CheckReport check_lattice(const Arguments& arguments, const Session& session) {
   const std::string& path = arguments.text("lattice");
   CheckReport report;
-  RawLattice raw = read_raw_lattice(path);
-  for (const Defect& defect : validate(raw.polyhedra, raw.rest, session.progress)) {
-    report.defects.push_back(defect.message);
+  std::variant<RawLattice, Lattice> parts = read_lattice_parts(path);
+  if (auto* raw = std::get_if<RawLattice>(&parts)) {
+    for (const Defect& defect : validate(raw->polyhedra, raw->rest, session.progress)) {
+      report.defects.push_back(defect.message);
+    }
+    if (!report.defects.empty()) {
+      return report;
+    }
+    parts = Lattice(build_lattice(std::move(*raw), path, session.progress));
   }
-  if (!report.defects.empty()) {
-    return report;
-  }
-  const SubdivisionLattice lattice = build_lattice(std::move(raw), path, session.progress);
+  const auto& lattice = std::get<Lattice>(parts);
   const auto volume =
       std::make_shared<const Volume>(freeze(lattice, arguments.text("freeze"), session.progress));
   const InjectivityCheck check(volume);
-  const auto pose = lattice.posed_points();
+  const std::vector<glm::dvec3> pose = posed_controls(path, lattice);
   if (arguments.has("model")) {
     const Model model = read_model(arguments.text("model"));
     report.local = check.local(pose, patches_of(*volume, model, session.progress));

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "deform/model/model_file.h"
-#include "lattice/io/lattice_file.h"
+#include "lattice/io/lattice.h"
 #include "lattice/topology/validate.h"
 #include "tools/command.h"
 #include "tools/report.h"
@@ -24,7 +24,12 @@ ExitStatus run(const Arguments& arguments, const Session& session) {
     print(model_report(read_model(path), session.is_json), session);
     return ExitStatus::Done;
   }
-  LatticeReport report{read_raw_lattice(path), {}};
+  std::variant<RawLattice, Lattice> parts = read_lattice_parts(path);
+  if (const auto* lattice = std::get_if<Lattice>(&parts)) {
+    print(lattice_report(*lattice, session.is_json), session);
+    return ExitStatus::Done;
+  }
+  LatticeReport report{std::get<RawLattice>(std::move(parts)), {}};
   report.defects = validate(report.raw.polyhedra, report.raw.rest, session.progress);
   print(lattice_report(report, session.is_json), session);
   return report.defects.empty() ? ExitStatus::Done : ExitStatus::Failed;

@@ -165,8 +165,8 @@ ExitStatus run(const Operation& operation, const Arguments& arguments, const Ses
     return run_poses(operation, complete, session);
   }
   Scene scene = open_inputs(operation, complete, session.progress);
-  // `convert` turns a model into a lattice; the others keep the kind of what they are given.
-  if (operation.name == "convert") {
+  // These turn a model into a lattice; the others keep the kind of what they are given.
+  if (operation.name == "convert" || operation.name.starts_with("new ")) {
     check_lattice_output(output);
   } else {
     check_output(scene, output);

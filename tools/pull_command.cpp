@@ -14,9 +14,10 @@
 #include "deform/model/model_file.h"
 #include "deform/scene/bind.h"
 #include "deform/scene/indexed_vector.h"
+#include "deform/scene/pose.h"
 #include "lattice/core/error.h"
 #include "lattice/core/text_scanner.h"
-#include "lattice/io/lattice_file.h"
+#include "lattice/io/lattice.h"
 #include "tools/command.h"
 
 namespace espalier::tools {
@@ -79,7 +80,7 @@ Binding bind_picks(const Volume& volume, const Model& model,
 }
 
 /// Moves the pose so that the picks reach their targets, as far as they can.
-PullReport pull(const Arguments& arguments, const Session& session, SubdivisionLattice& lattice) {
+PullReport pull(const Arguments& arguments, const Session& session, Lattice& lattice) {
   const Model model = read_model(arguments.text("model"));
   PullReport report;
   report.picks = parse_indexed_vectors("pick", arguments.texts("pick"), model.points().size(),
@@ -89,13 +90,12 @@ PullReport pull(const Arguments& arguments, const Session& session, SubdivisionL
   std::vector<glm::dvec3> points;
   const Binding binding = bind_picks(*volume, model, report.picks, points);
   const StencilTable weights = control_weights(*volume, binding);
-  const Pull solver(weights, mobilities_of(arguments, lattice.rest.size()));
+  const Pull solver(weights, mobilities_of(arguments, volume->n_controls()));
 
-  const auto posed = lattice.posed_points();
-  std::vector<glm::dvec3> pose(posed.begin(), posed.end());
+  std::vector<glm::dvec3> pose = posed_controls(arguments.text("lattice"), lattice);
   std::vector<glm::dvec3> moves = pose;
   for (std::size_t i = 0; i < moves.size(); ++i) {
-    moves[i] -= lattice.rest[i];
+    moves[i] -= volume->rest_controls()[i];
   }
   std::vector<glm::dvec3> wanted = weights.apply(moves);
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -115,7 +115,7 @@ PullReport pull(const Arguments& arguments, const Session& session, SubdivisionL
     report.residuals.push_back(wanted[i] - report.step * done);
     report.has_misses |= glm::length(pulled.residuals[i]) > kMiss * volume->diagonal();
   }
-  lattice.pose = std::move(pose);
+  lattice = lattice.with_pose(std::move(pose));
   return report;
 }
 
@@ -143,9 +143,9 @@ std::string text_of(const std::string& path, const PullReport& report, bool is_j
 ExitStatus run(const Arguments& arguments, const Session& session) {
   const std::string& output = arguments.text("output");
   require_lattice_path(output);
-  SubdivisionLattice lattice = read_lattice(arguments.text("lattice"), session.progress);
+  Lattice lattice = read_any_lattice(arguments.text("lattice"), session.progress);
   const PullReport report = pull(arguments, session, lattice);
-  write_lattice(output, lattice);
+  write_any_lattice(output, lattice);
   if (!session.is_quiet) {
     std::fputs(text_of(output, report, session.is_json).c_str(), stdout);
   }

@@ -15,7 +15,7 @@
 #include "deform/model/model_file.h"
 #include "lattice/core/error.h"
 #include "lattice/core/text_scanner.h"
-#include "lattice/io/lattice_file.h"
+#include "lattice/io/lattice.h"
 #include "lattice/subdivision/refine.h"
 #include "tools/command.h"
 #include "tools/report.h"
@@ -83,10 +83,18 @@ ExitStatus run(const Arguments& arguments, const Session& session) {
     throw ParameterError("'levels' must be 0 to 6");
   }
   std::vector<Model> models;
-  std::vector<SubdivisionLattice> lattices;
+  std::vector<Lattice> lattices;
   for (const std::string& path : arguments.texts("scene")) {
     if (is_lattice_path(path)) {
-      lattices.push_back(refined(read_lattice(path, session.progress), levels));
+      lattices.push_back(read_any_lattice(path, session.progress));
+      const auto* subdivision = lattices.back().as<SubdivisionLattice>();
+      if (levels > 0 && subdivision == nullptr) {
+        throw ParameterError(fmt::format("'levels' is for subdivision lattices, {} is a {} lattice",
+                                         path, lattices.back().type()));
+      }
+      if (levels > 0) {
+        lattices.back() = refined(*subdivision, levels);
+      }
     } else {
       models.push_back(read_model(path));
     }
@@ -139,7 +147,7 @@ Command render_command() {
        {.name = "rest", .type = Type::Flag, .help = "draw lattices at rest, not posed"},
        {.name = "levels",
         .type = Type::Integer,
-        .help = "draw lattices refined so often (default 0)",
+        .help = "draw subdivision lattices refined so often (default 0)",
         .fallback = Value(std::int64_t{0})},
        {.name = "output", .type = Type::Path, .help = "the picture, .png", .is_required = true}},
       run};

@@ -1,8 +1,10 @@
 #include "tools/report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -125,7 +127,8 @@ std::string histogram_text(const Json& counts) {
   return text.empty() ? "none" : text;
 }
 
-std::string counts_text(const CellComplex& complex) {
+std::string counts_text(const SubdivisionLattice& lattice) {
+  const CellComplex& complex = *lattice.complex;
   return fmt::format("{} vertices, {} edges, {} faces, {} cells", complex.n_vertices(),
                      complex.n_edges(), complex.n_faces(), complex.n_cells());
 }
@@ -145,12 +148,99 @@ std::string lattice_text(const SubdivisionLattice& lattice) {
       "  sharp edges {}, semi-sharp {}; corners {}, semi-sharp {}\n"
       "  box {}  to  {}\n"
       "  valid\n",
-      name_of(lattice.scheme), lattice.pose.empty() ? "" : ", posed", counts_text(*lattice.complex),
+      name_of(lattice.scheme), lattice.pose.empty() ? "" : ", posed", counts_text(lattice),
       histogram_text(valence["faces_at_inner_edges"]),
       histogram_text(valence["faces_at_boundary_edges"]), histogram_text(valence["faces_of_cells"]),
       json["non_manifold"]["edges"].dump(), json["non_manifold"]["vertices"].dump(),
       tag["sharp_edges"].dump(), tag["semi_sharp_edges"].dump(), tag["corners"].dump(),
       tag["semi_sharp_vertices"].dump(), text_of(bounds.min), text_of(bounds.max));
+}
+
+template <class Numbers>
+std::string joined(const Numbers& numbers, const char* separator) {
+  return fmt::format("{}", fmt::join(numbers, separator));
+}
+
+std::string counts_text(const TensorLattice& lattice) {
+  return fmt::format("{} control points", joined(lattice.counts(), " x "));
+}
+
+std::string counts_text(const ThbLattice& lattice) {
+  return fmt::format("{} control points on {} levels", lattice.rest.size(),
+                     lattice.hierarchy->n_levels());
+}
+
+/// How each axis ends, "knots" where it has its own.
+std::array<std::string_view, 3> ends_of(const TensorLattice& lattice) {
+  std::array<std::string_view, 3> ends;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Ends named = lattice.axes[axis].ends();
+    ends[axis] = named == Ends::Explicit ? "knots" : name_of(named);
+  }
+  return ends;
+}
+
+std::array<int, 3> degree_of(const TensorLattice& lattice) {
+  return {lattice.axes[0].degree(), lattice.axes[1].degree(), lattice.axes[2].degree()};
+}
+
+/// Adds what lattices of all types without cells have.
+template <class GridLattice>
+Json finished(Json json, const GridLattice& lattice) {
+  json["control_points"] = lattice.rest.size();
+  json["has_pose"] = !lattice.pose.empty();
+  json["valid"] = true;
+  json["defects"] = Json::array();
+  add_bounds(json, lattice.rest);
+  return json;
+}
+
+Json lattice_json(const TensorLattice& lattice) {
+  Json json = {{"type", name_of(lattice.kind)},
+               {"counts", lattice.counts()},
+               {"degree", degree_of(lattice)},
+               {"ends", ends_of(lattice)}};
+  if (!lattice.weights.empty()) {
+    const auto [low, high] = std::ranges::minmax(lattice.weights);
+    json["weights"] = {{"min", low}, {"max", high}};
+  }
+  return finished(std::move(json), lattice);
+}
+
+Json lattice_json(const ThbLattice& lattice) {
+  const ThbHierarchy& hierarchy = *lattice.hierarchy;
+  return finished({{"type", "thb"},
+                   {"counts", hierarchy.counts()},
+                   {"degree", hierarchy.degree()},
+                   {"levels", hierarchy.n_controls_by_level()},
+                   {"leaves", hierarchy.leaves().size()}},
+                  lattice);
+}
+
+std::string bounds_text(std::span<const glm::dvec3> points) {
+  const Box bounds = box_of(points);
+  return fmt::format("  box {}  to  {}\n  valid\n", text_of(bounds.min), text_of(bounds.max));
+}
+
+std::string lattice_text(const TensorLattice& lattice) {
+  std::string text =
+      fmt::format("{} lattice{}\n  {}\n  degree {}, ends {}\n", name_of(lattice.kind),
+                  lattice.pose.empty() ? "" : ", posed", counts_text(lattice),
+                  joined(degree_of(lattice), " "), joined(ends_of(lattice), " "));
+  if (!lattice.weights.empty()) {
+    const auto [low, high] = std::ranges::minmax(lattice.weights);
+    text += fmt::format("  weights {:.6g} to {:.6g}\n", low, high);
+  }
+  return text + bounds_text(lattice.rest);
+}
+
+std::string lattice_text(const ThbLattice& lattice) {
+  const ThbHierarchy& hierarchy = *lattice.hierarchy;
+  return fmt::format("thb lattice{}\n  {}: {}; {} cells\n  {} on a grid of level 0, degree {}\n",
+                     lattice.pose.empty() ? "" : ", posed", counts_text(lattice),
+                     joined(hierarchy.n_controls_by_level(), ", "), hierarchy.leaves().size(),
+                     joined(hierarchy.counts(), " x "), joined(hierarchy.degree(), " ")) +
+         bounds_text(lattice.rest);
 }
 
 /// "1 face", "2 faces".
@@ -259,8 +349,12 @@ std::string lattice_report(const LatticeReport& report, bool is_json) {
   if (!report.defects.empty()) {
     return is_json ? line(defective_json(report)) : defective_text(report);
   }
-  const SubdivisionLattice lattice = build_lattice(report.raw, "");
-  return is_json ? line(lattice_json(lattice)) : lattice_text(lattice);
+  return lattice_report(build_lattice(report.raw, ""), is_json);
+}
+
+std::string lattice_report(const Lattice& lattice, bool is_json) {
+  return lattice.visit(
+      [&](const auto& held) { return is_json ? line(lattice_json(held)) : lattice_text(held); });
 }
 
 std::string model_report(const Model& model, bool is_json) {
@@ -281,10 +375,11 @@ std::string picture_report(const std::string& path, int width, int height, bool 
 std::string result_report(const Scene& scene, const std::string& name, const std::string& path,
                           bool is_json) {
   if (const auto lattice = scene.lattices.find(name); lattice != scene.lattices.end()) {
-    Json json = lattice_json(*lattice->second);
-    json["output"] = path;
-    return is_json ? line(json)
-                   : fmt::format("{}: {}\n", path, counts_text(*lattice->second->complex));
+    return lattice->second.visit([&](const auto& held) {
+      Json json = lattice_json(held);
+      json["output"] = path;
+      return is_json ? line(json) : fmt::format("{}: {}\n", path, counts_text(held));
+    });
   }
   const Model& model = model_in(scene, name);
   Json json = model_json(model);

@@ -7,7 +7,7 @@
 
 #include "deform/model/model.h"
 #include "deform/scene/scene.h"
-#include "lattice/io/lattice_file.h"
+#include "lattice/io/lattice.h"
 #include "lattice/topology/defect.h"
 
 namespace espalier::tools {
@@ -20,6 +20,7 @@ struct LatticeReport {
 
 /// All of these end in a line feed.
 [[nodiscard]] std::string lattice_report(const LatticeReport& report, bool is_json);
+[[nodiscard]] std::string lattice_report(const Lattice& lattice, bool is_json);
 [[nodiscard]] std::string model_report(const Model& model, bool is_json);
 
 /// A picture of so many pixels, now in the file `path`.

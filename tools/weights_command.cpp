@@ -10,7 +10,7 @@
 #include "deform/model/model_file.h"
 #include "deform/scene/bind.h"
 #include "lattice/core/file.h"
-#include "lattice/io/lattice_file.h"
+#include "lattice/io/lattice.h"
 #include "lattice/io/matrix_market.h"
 #include "tools/command.h"
 
@@ -21,33 +21,58 @@ constexpr const char* kComment =
     "W of x' = x + W (P - P_rest): a row a model point, a column a control point, empty rows "
     "outside";
 
+using Json = nlohmann::ordered_json;
+
+/// What the levels of a hierarchy do to the model; levels: none for lattices of other types.
+std::string levels_text(const std::vector<LevelInfluence>& levels) {
+  std::string text;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    text +=
+        fmt::format("  level {}: {} control points, one moves {:.6g} points on average, {} none\n",
+                    i, levels[i].n_controls, levels[i].mean_points, levels[i].n_without);
+  }
+  return text;
+}
+
+void add_levels(const std::vector<LevelInfluence>& levels, Json& json) {
+  for (const LevelInfluence& level : levels) {
+    json["levels"].push_back({{"control_points", level.n_controls},
+                              {"mean_points", level.mean_points},
+                              {"without_points", level.n_without}});
+  }
+}
+
 std::string report(const std::string& path, const StencilTable& weights, const StatusCounts& counts,
-                   bool is_json) {
+                   const std::vector<LevelInfluence>& levels, bool is_json) {
   if (!is_json) {
     return fmt::format(
-        "{}: {} points x {} control points, {} weights\n"
-        "  {} inside, {} on the border, {} outside, {} unconverged\n",
-        path, weights.n_rows(), weights.n_controls(), weights.n_weights(), counts.inside,
-        counts.border, counts.outside, counts.unconverged);
+               "{}: {} points x {} control points, {} weights\n"
+               "  {} inside, {} on the border, {} outside, {} unconverged\n",
+               path, weights.n_rows(), weights.n_controls(), weights.n_weights(), counts.inside,
+               counts.border, counts.outside, counts.unconverged) +
+           levels_text(levels);
   }
-  using Json = nlohmann::ordered_json;
-  const Json json = {{"rows", weights.n_rows()},       {"columns", weights.n_controls()},
-                     {"weights", weights.n_weights()}, {"output", path},
-                     {"inside", counts.inside},        {"border", counts.border},
-                     {"outside", counts.outside},      {"unconverged", counts.unconverged}};
+  Json json = {{"rows", weights.n_rows()},       {"columns", weights.n_controls()},
+               {"weights", weights.n_weights()}, {"output", path},
+               {"inside", counts.inside},        {"border", counts.border},
+               {"outside", counts.outside},      {"unconverged", counts.unconverged}};
+  add_levels(levels, json);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 ExitStatus run(const Arguments& arguments, const Session& session) {
   const Model model = read_model(arguments.text("model"));
-  const SubdivisionLattice lattice = read_lattice(arguments.text("lattice"), session.progress);
+  const Lattice lattice = read_any_lattice(arguments.text("lattice"), session.progress);
   const Volume volume = freeze(lattice, arguments.text("freeze"), session.progress);
   const Binding binding = embed(volume, model.points(), session.progress);
   const StencilTable weights = control_weights(volume, binding);
   const std::string& path = arguments.text("output");
   write_file(path, matrix_market_text(weights, kComment));
   if (!session.is_quiet && path != "/dev/stdout") {
-    std::fputs(report(path, weights, binding.counts(), session.is_json).c_str(), stdout);
+    const auto* thb = lattice.as<ThbLattice>();
+    const auto levels =
+        thb != nullptr ? level_influences(*thb->hierarchy, weights) : std::vector<LevelInfluence>();
+    std::fputs(report(path, weights, binding.counts(), levels, session.is_json).c_str(), stdout);
   }
   return ExitStatus::Done;
 }

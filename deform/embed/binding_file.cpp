@@ -257,11 +257,12 @@ void require_same_source(const std::string& path, const BindingSource& saved,
     }
   };
   require(saved.topology == current.topology,
-          "the lattice's cells are not those the binding was made for");
+          "the lattice's cells or knots are not those the binding was made for");
   require(saved.scheme == current.scheme,
-          "the lattice's scheme changed since the binding was made");
-  require(saved.tags == current.tags,
-          "the lattice's sharp edges or vertices changed since the binding was made");
+          "the lattice's scheme changed, or its type, since the binding was made");
+  require(
+      saved.tags == current.tags,
+      "the lattice's sharp edges or vertices changed, or its weights, since the binding was made");
   require(saved.rest == current.rest,
           "the lattice's rest shape changed since the binding was made");
   require(saved.model == current.model, "the model's points changed since the binding was made");

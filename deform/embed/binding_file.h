@@ -26,14 +26,14 @@ namespace espalier {
 
 /// Fingerprints of what a binding depends on, and the options it was made with.
 struct BindingSource {
-  std::uint64_t topology = 0;  ///< the lattice's faces and cells
-  std::uint64_t scheme = 0;
-  std::uint64_t tags = 0;    ///< sharpness of edges and vertices
-  std::uint64_t rest = 0;    ///< bits of the lattice's points at rest
-  std::uint64_t model = 0;   ///< bits of the model's points
-  std::uint64_t volume = 0;  ///< the frozen volume's patches, see fingerprint_of()
-  std::string freeze;        ///< the option the lattice was frozen with, at most 1000 bytes
-  std::string outside;       ///< what outside points do, the same
+  std::uint64_t topology = 0;  ///< the lattice's faces and cells, or its axes or its hierarchy
+  std::uint64_t scheme = 0;    ///< and the lattice's type
+  std::uint64_t tags = 0;      ///< sharpness of edges and vertices, or weights
+  std::uint64_t rest = 0;      ///< bits of the lattice's points at rest
+  std::uint64_t model = 0;     ///< bits of the model's points
+  std::uint64_t volume = 0;    ///< the frozen volume's patches, see fingerprint_of()
+  std::string freeze;          ///< the option the lattice was frozen with, at most 1000 bytes
+  std::string outside;         ///< what outside points do, the same
   bool operator==(const BindingSource&) const = default;
 };
 

@@ -93,6 +93,15 @@ bool is_parallel(std::span<const glm::dvec3> motion) {
   return true;
 }
 
+/// Equal weights cancel.
+void require_polynomial(const Volume& volume) {
+  const auto weights = volume.weights();
+  if (std::any_of(weights.begin(), weights.end(), [&](double w) { return w != weights.front(); })) {
+    throw LatticeError(
+        "the lattice has weights that differ: only lattices with equal weights can be certified");
+  }
+}
+
 }  // namespace
 
 InjectivityCheck::InjectivityCheck(std::shared_ptr<const Volume> volume)
@@ -124,6 +133,7 @@ InjectivityCheck::InjectivityCheck(std::shared_ptr<const Volume> volume)
   rest_error_ = rounding(volume_->rest_controls());
   is_rest_certain_.assign(volume_->n_patches(), 0);
 
+  require_polynomial(*volume_);
   Workspace& space = workspace();
   for (std::size_t i = 0; i < volume_->n_patches(); ++i) {
     volume_->bezier(i, volume_->rest_points(), space.rest);

@@ -63,7 +63,8 @@ struct SafeStepOptions {
 class InjectivityCheck {
  public:
   /// Throws LatticeError, naming a patch, if the lattice at rest is folded or singular throughout a
-  /// patch: then there is nothing to compare with. No volume: its patches are used by every call.
+  /// patch: then there is nothing to compare with; also for a volume with weights that differ,
+  /// whose patches are no polynomials. No volume: its patches are used by every call.
   explicit InjectivityCheck(std::shared_ptr<const Volume> volume);
 
   /// Of all patches, or of those listed. most_boxes: parts of a patch that may be looked at. Throws

@@ -6,7 +6,6 @@
 #include "lattice/core/file.h"
 #include "lattice/core/hash.h"
 #include "lattice/core/text_scanner.h"
-#include "lattice/subdivision/freeze.h"
 
 namespace espalier {
 namespace {
@@ -37,17 +36,65 @@ std::uint64_t fingerprint_of(std::span<const glm::dvec3> points) {
   return print.value();
 }
 
+/// Numbers of types of lattices; those of subdivision lattices are their schemes, from 0.
+constexpr std::uint64_t kFirstTensorKind = 16;
+constexpr std::uint64_t kThb = 32;
+
+/// What a binding depends on of a lattice alone.
+BindingSource lattice_source(const SubdivisionLattice& lattice) {
+  BindingSource source;
+  source.topology = fingerprint_of(*lattice.complex);
+  source.scheme = static_cast<std::uint64_t>(lattice.scheme);
+  source.tags = fingerprint_of(lattice.sharpness);
+  source.rest = fingerprint_of(lattice.rest);
+  return source;
+}
+
+BindingSource lattice_source(const TensorLattice& lattice) {
+  Fingerprint topology;
+  for (const TensorAxis& axis : lattice.axes) {
+    topology.add(std::int32_t{axis.n_controls()});
+    topology.add(std::int32_t{axis.degree()});
+    topology.add(static_cast<std::uint64_t>(axis.ends()));
+    topology.add_all(axis.knots());
+  }
+  Fingerprint weights;
+  weights.add_all(std::span(lattice.weights));
+  Fingerprint rest;
+  rest.add_all(std::span(lattice.rest));
+  rest.add_all(std::span<const glm::dvec3>(lattice.thickness));
+  BindingSource source;
+  source.topology = topology.value();
+  source.scheme = kFirstTensorKind + static_cast<std::uint64_t>(lattice.kind);
+  source.tags = weights.value();
+  source.rest = rest.value();
+  return source;
+}
+
+BindingSource lattice_source(const ThbLattice& lattice) {
+  Fingerprint topology;
+  topology.add_all(std::span<const std::int32_t>(lattice.hierarchy->counts()));
+  topology.add_all(std::span<const std::int32_t>(lattice.hierarchy->degree()));
+  for (const std::vector<GridIndex>& cells : lattice.hierarchy->domains()) {
+    topology.add(std::uint64_t{cells.size()});
+    for (const GridIndex& cell : cells) {
+      topology.add(cell.key());
+    }
+  }
+  BindingSource source;
+  source.topology = topology.value();
+  source.scheme = kThb;
+  source.rest = fingerprint_of(lattice.rest);
+  return source;
+}
+
 /// All but the volume's fingerprint.
-BindingSource source_of(const SubdivisionLattice& lattice, const Model& model,
-                        const BindOptions& options) {
-  return {fingerprint_of(*lattice.complex),
-          static_cast<std::uint64_t>(lattice.scheme),
-          fingerprint_of(lattice.sharpness),
-          fingerprint_of(lattice.rest),
-          fingerprint_of(model.points()),
-          0,
-          options.freeze,
-          options.outside};
+BindingSource source_of(const Lattice& lattice, const Model& model, const BindOptions& options) {
+  BindingSource source = lattice.visit([](const auto& held) { return lattice_source(held); });
+  source.model = fingerprint_of(model.points());
+  source.freeze = options.freeze;
+  source.outside = options.outside;
+  return source;
 }
 
 /// The distance in "falloff:DISTANCE"; 0 for "keep".
@@ -65,21 +112,21 @@ double reach_of(const std::string& option) {
 
 }  // namespace
 
-Volume freeze(const SubdivisionLattice& lattice, const std::string& option,
-              const Progress& progress) {
+Volume freeze(const Lattice& lattice, const std::string& option, const Progress& progress) {
   const std::size_t colon = option.find(':');
   const std::string mode = option.substr(0, colon);
   const bool has_number = colon != std::string::npos;
   const std::string_view number = has_number ? std::string_view(option).substr(colon + 1) : "";
-  AdaptiveOptions adaptive;
-  if (mode == "adaptive" &&
-      (!has_number || (parse_number(number, adaptive.tolerance) && adaptive.tolerance >= 1e-12 &&
-                       adaptive.tolerance <= 0.1))) {
-    return freeze_adaptive(lattice, adaptive, progress);
+  FreezeOptions options;
+  double& tolerance = options.adaptive.tolerance;
+  if (mode == "adaptive" && (!has_number || (parse_number(number, tolerance) &&
+                                             tolerance >= 1e-12 && tolerance <= 0.1))) {
+    return lattice.freeze(options, progress);
   }
   std::int64_t levels = 0;
   if (mode == "uniform" && parse_integer(number, levels) && levels >= 1 && levels <= 8) {
-    return freeze_uniform(lattice, static_cast<int>(levels), progress);
+    options.uniform_levels = static_cast<int>(levels);
+    return lattice.freeze(options, progress);
   }
   throw ParameterError("'freeze' is '" + option +
                        "', must be adaptive, adaptive:TOLERANCE from 1e-12 to 0.1, or uniform:N "

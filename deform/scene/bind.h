@@ -10,9 +10,10 @@
 
 namespace espalier {
 
-/// The volume of a lattice at rest. option: "adaptive", "adaptive:TOLERANCE" or "uniform:N". Throws
-/// ParameterError for another one.
-[[nodiscard]] Volume freeze(const SubdivisionLattice& lattice, const std::string& option,
+/// The volume of a lattice at rest. option: "adaptive", "adaptive:TOLERANCE" or "uniform:N", which
+/// says how subdivision lattices freeze; the other types freeze exactly. Throws ParameterError for
+/// another one.
+[[nodiscard]] Volume freeze(const Lattice& lattice, const std::string& option,
                             const Progress& progress = {});
 
 /// How a model is bound.

@@ -24,6 +24,7 @@ namespace {
 using Type = ParameterType;
 using Indices = std::vector<std::int32_t>;
 
+constexpr std::string_view kModelling = "modelling its cells";
 constexpr std::int64_t kLargestIndex = 2'000'000'000;
 constexpr std::int64_t kLongestRange = 10'000'000;
 
@@ -112,7 +113,8 @@ using MeshEdit = std::function<Edited(const CellMesh&, const Arguments&)>;
 std::function<Scene(const Scene&, const Arguments&, const Progress&)> editing(MeshEdit edit) {
   return [edit = std::move(edit)](const Scene& scene, const Arguments& arguments,
                                   const Progress& progress) {
-    const SubdivisionLattice& lattice = lattice_in(scene, arguments.text("lattice"));
+    const SubdivisionLattice& lattice =
+        subdivision_lattice_in(scene, arguments.text("lattice"), kModelling);
     return with_lattice(scene, arguments.text("output"),
                         edited_lattice(lattice, edit(mesh_of(lattice), arguments), progress));
   };
@@ -150,9 +152,9 @@ Scene merge(const Scene& scene, const Arguments& arguments, const Progress& prog
   if (names.size() < 2) {
     throw ParameterError("lattice: two or more are merged");
   }
-  SubdivisionLattice merged = lattice_in(scene, names.front());
+  SubdivisionLattice merged = subdivision_lattice_in(scene, names.front(), kModelling);
   for (std::size_t i = 1; i < names.size(); ++i) {
-    const SubdivisionLattice& next = lattice_in(scene, names[i]);
+    const SubdivisionLattice& next = subdivision_lattice_in(scene, names[i], kModelling);
     const CellMesh both = side_by_side(mesh_of(merged), mesh_of(next));
     merged = merged_lattice(merged, next, tolerance_of(arguments, both), progress);
   }
@@ -210,7 +212,7 @@ Edited transform(const CellMesh& mesh, const Arguments& arguments) {
 }
 
 Scene crease(const Scene& scene, const Arguments& arguments, const Progress&) {
-  SubdivisionLattice lattice = lattice_in(scene, arguments.text("lattice"));
+  SubdivisionLattice lattice = subdivision_lattice_in(scene, arguments.text("lattice"), kModelling);
   const CellComplex& complex = *lattice.complex;
   std::vector<EdgeId> edges;
   std::vector<VertexId> vertices;

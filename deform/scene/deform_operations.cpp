@@ -13,6 +13,7 @@
 #include "deform/scene/bind.h"
 #include "deform/scene/lock.h"
 #include "deform/scene/operations.h"
+#include "deform/scene/pose.h"
 #include "lattice/core/error.h"
 
 namespace espalier {
@@ -22,31 +23,6 @@ using Type = ParameterType;
 
 /// Faces whose parts separate by less than this part of the lattice's diagonal are whole.
 constexpr double kTearing = 1e-9;
-
-/// The vertices of every cell, cells sorted: what a lattice and its pose must have in common.
-std::vector<std::vector<VertexId>> sorted_cells(const CellComplex& complex) {
-  std::vector<std::vector<VertexId>> cells;
-  cells.reserve(complex.n_cells());
-  for (const CellId cell : complex.cells()) {
-    const auto vertices = complex.vertices(cell);
-    cells.emplace_back(vertices.begin(), vertices.end());
-  }
-  std::sort(cells.begin(), cells.end());
-  return cells;
-}
-
-void require_same_topology(const std::string& lattice_name, const CellComplex& lattice,
-                           const std::string& pose_name, const CellComplex& pose) {
-  if (lattice.n_vertices() != pose.n_vertices() || lattice.n_cells() != pose.n_cells()) {
-    throw LatticeError(pose_name + ": has " + std::to_string(pose.n_vertices()) + " vertices and " +
-                       std::to_string(pose.n_cells()) + " cells, the lattice " + lattice_name +
-                       " has " + std::to_string(lattice.n_vertices()) + " and " +
-                       std::to_string(lattice.n_cells()));
-  }
-  if (sorted_cells(lattice) != sorted_cells(pose)) {
-    throw LatticeError(pose_name + ": its cells are not those of the lattice " + lattice_name);
-  }
-}
 
 /// Unit normals for the model's (point, normal) pairs, each turned as the space round its point.
 std::vector<glm::dvec3> turned_normals(const Model& model,
@@ -69,16 +45,9 @@ NormalMode normal_mode(const std::string& word) {
 
 /// The control points that the i-th lattice of the arguments takes.
 std::vector<glm::dvec3> pose_of(const Scene& scene, const Arguments& arguments, std::size_t i) {
-  const std::string lattice_name = arguments.texts("lattice")[i];
-  const SubdivisionLattice& lattice = lattice_in(scene, lattice_name);
-  if (!arguments.has("pose")) {
-    const auto points = lattice.posed_points();
-    return {points.begin(), points.end()};
-  }
-  const std::string pose_name = arguments.texts("pose")[i];
-  const Pose& pose = pose_in(scene, pose_name);
-  require_same_topology(lattice_name, *lattice.complex, pose_name, pose.complex);
-  return pose.points;
+  const std::string lattice = arguments.texts("lattice")[i];
+  return arguments.has("pose") ? pose_for(scene, lattice, arguments.texts("pose")[i])
+                               : posed_controls(lattice, lattice_in(scene, lattice));
 }
 
 /// An option that goes with each lattice must be given as often as they are, or not at all.

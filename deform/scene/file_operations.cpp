@@ -6,6 +6,7 @@
 #include "deform/model/model_file.h"
 #include "deform/scene/bind.h"
 #include "deform/scene/operations.h"
+#include "deform/scene/pose.h"
 #include "lattice/core/error.h"
 #include "lattice/core/file.h"
 #include "lattice/io/lattice_file.h"
@@ -18,16 +19,6 @@ std::string kind_of(const std::string& path) {
   return is_lattice_path(path) ? "lattice" : "model";
 }
 
-/// A pose's cells must be a complex; where its points are does not matter.
-Pose read_pose(const std::string& path) {
-  RawLattice raw = read_raw_lattice(path);
-  try {
-    return {CellComplex(std::move(raw.polyhedra)), raw.pose.empty() ? raw.rest : raw.pose};
-  } catch (const LatticeError& error) {
-    throw LatticeError(path + ": " + error.what());
-  }
-}
-
 Scene open(const Scene& scene, const Arguments& arguments, const Progress& progress) {
   const std::string& path = arguments.text("path");
   const std::string& name = arguments.has("as") ? arguments.text("as") : path;
@@ -36,7 +27,7 @@ Scene open(const Scene& scene, const Arguments& arguments, const Progress& progr
     return with_model(scene, name, read_model(path));
   }
   if (kind == "lattice") {
-    return with_lattice(scene, name, read_lattice(path, progress));
+    return with_lattice(scene, name, read_any_lattice(path, progress));
   }
   Scene result = scene;
   result.poses.insert_or_assign(name, std::make_shared<const Pose>(read_pose(path)));
@@ -44,15 +35,20 @@ Scene open(const Scene& scene, const Arguments& arguments, const Progress& progr
 }
 
 /// What VTK is to draw of a lattice.
-std::string vtu_of(const SubdivisionLattice& lattice, const Arguments& arguments,
-                   const Progress& progress) {
-  const std::span<const glm::dvec3> controls =
-      arguments.flag("rest") ? lattice.rest : lattice.posed_points();
+std::string vtu_of(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  const std::string& name = arguments.text("name");
+  const Lattice& lattice = lattice_in(scene, name);
+  const bool is_rest = arguments.flag("rest");
+  const auto controls = is_rest ? lattice.rest_points() : lattice.posed_points();
   if (!arguments.flag("volume")) {
-    return vtu_text(*lattice.complex, controls);
+    const SubdivisionLattice& cells = subdivision_lattice_in(scene, name, ".vtu without --volume");
+    return vtu_text(*cells.complex, controls);
   }
   const Volume volume = freeze(lattice, arguments.text("freeze"), progress);
-  return vtu_text(volume, volume.points(controls));
+  const auto* tensor = lattice.as<TensorLattice>();
+  const bool has_weights = tensor != nullptr && !is_rest;
+  return vtu_text(volume, volume.points(controls),
+                  has_weights ? tensor->posed_weights() : std::span<const double>());
 }
 
 Scene save(const Scene& scene, const Arguments& arguments, const Progress& progress) {
@@ -65,9 +61,9 @@ Scene save(const Scene& scene, const Arguments& arguments, const Progress& progr
     }
   }
   if (is_vtu) {
-    write_file(path, vtu_of(lattice_in(scene, name), arguments, progress));
+    write_file(path, vtu_of(scene, arguments, progress));
   } else if (scene.lattices.contains(name)) {
-    write_lattice(path, lattice_in(scene, name));
+    write_any_lattice(path, lattice_in(scene, name));
   } else {
     write_model(path, model_in(scene, name));
   }

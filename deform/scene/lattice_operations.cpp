@@ -1,15 +1,13 @@
-/// Operations that make lattices and refine them.
+/// Operations that make subdivision lattices from boxes, bars and meshes.
 
 #include <array>
 #include <utility>
 
-#include "deform/model/surface_model.h"
 #include "deform/scene/lattice_parameters.h"
 #include "deform/scene/operations.h"
 #include "lattice/build/extrude.h"
 #include "lattice/build/primitives.h"
 #include "lattice/core/error.h"
-#include "lattice/subdivision/refine.h"
 
 namespace espalier {
 namespace {
@@ -52,7 +50,11 @@ Scene convert_lattice(const Scene& scene, const Arguments& arguments) {
       throw ParameterError(std::string("'") + option + "' is for surface meshes, not for lattices");
     }
   }
-  SubdivisionLattice lattice = lattice_in(scene, arguments.text("mesh"));
+  const std::string& name = arguments.text("mesh");
+  if (!arguments.has("scheme")) {
+    return with_lattice(scene, arguments.text("output"), lattice_in(scene, name));
+  }
+  SubdivisionLattice lattice = subdivision_lattice_in(scene, name, "--scheme");
   lattice.scheme = scheme_of(arguments, lattice.scheme);
   return with_lattice(scene, arguments.text("output"), std::move(lattice));
 }
@@ -92,25 +94,6 @@ Scene convert(const Scene& scene, const Arguments& arguments, const Progress& pr
     options.set("sharp", std::string("none"));
   }
   return add_lattice(scene, options, mesh_from(model, arguments), progress);
-}
-
-Scene refine_object(const Scene& scene, const Arguments& arguments, const Progress& progress) {
-  const std::string& name = arguments.text("input");
-  const std::string& output = arguments.text("output");
-  const int levels = arguments.integer("levels");
-  if (levels < 1 || levels > 8) {
-    throw ParameterError("'levels' must be 1 to 8");
-  }
-  if (scene.models.contains(name)) {
-    if (arguments.has("scheme")) {
-      throw ParameterError(
-          "'scheme' is for lattices; a model is refined as a Catmull-Clark surface");
-    }
-    return with_model(scene, output, refined_model(model_in(scene, name), levels, output));
-  }
-  SubdivisionLattice lattice = lattice_in(scene, name);
-  lattice.scheme = scheme_of(arguments, lattice.scheme);
-  return with_lattice(scene, output, refined(lattice, levels, progress));
 }
 
 }  // namespace
@@ -196,23 +179,6 @@ std::vector<Operation> lattice_operations() {
         {.name = "sharp", .type = Type::Text, .help = sharp_parameter().help},
         result_parameter("the lattice, .json, .ovm, or .vtu for VTK and ParaView")},
        convert},
-      {"refine",
-       "Subdivide a lattice, or a model as a Catmull-Clark surface",
-       {{.name = "input",
-         .type = Type::ModelOrLattice,
-         .help = "a lattice (.json, .ovm), or a model (.obj, .off, .ply, .stl)",
-         .is_required = true,
-         .is_positional = true},
-        {.name = "levels",
-         .type = Type::Integer,
-         .help = "how often (default 1)",
-         .fallback = Value(std::int64_t{1})},
-        {.name = "scheme",
-         .type = Type::Choice,
-         .help = "rules at extraordinary lines (default: the lattice's own)",
-         .choices = scheme_names()},
-        result_parameter("the refined lattice or model")},
-       refine_object},
   };
 }
 

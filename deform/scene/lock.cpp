@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "deform/evaluate/volume_boundary.h"
 #include "lattice/core/error.h"
 #include "lattice/core/text_scanner.h"
 #include "lattice/subdivision/subdivision_boundary.h"
@@ -75,6 +76,12 @@ std::vector<std::int32_t> crossed_faces(const Crossings& crossings) {
   return faces;
 }
 
+/// By a subdivision lattice's own faces, which locks name; else by the faces of patches.
+BoundarySurface boundary_of(const Lattice& lattice, const Volume& volume) {
+  const auto* subdivision = lattice.as<SubdivisionLattice>();
+  return subdivision != nullptr ? boundary_surface(*subdivision) : boundary_surface(volume);
+}
+
 }  // namespace
 
 Scene with_crossings(const Scene& scene, const std::string& model, const std::string& lattice) {
@@ -84,9 +91,9 @@ Scene with_crossings(const Scene& scene, const std::string& model, const std::st
   Scene result = scene;
   BoundModel& bound = result.bound.at({model, lattice});
   const Model& points = model_in(scene, model);
-  bound.crossings = std::make_shared<const Crossings>(
-      find_crossings(boundary_surface(lattice_in(scene, lattice)), bound.volume->rest_controls(),
-                     points.points(), points.faces(), bound.binding->status));
+  bound.crossings = std::make_shared<const Crossings>(find_crossings(
+      boundary_of(lattice_in(scene, lattice), *bound.volume), bound.volume->rest_controls(),
+      points.points(), points.faces(), bound.binding->status));
   return result;
 }
 
@@ -99,6 +106,7 @@ Scene with_lock(const Scene& scene, const std::string& model, const std::string&
   Lock lock{option, {}, {}};
   Scene result = scene;
   if (parsed.continuity) {
+    const SubdivisionLattice& subdivision = subdivision_lattice_in(scene, lattice, "a lock");
     if (!parsed.faces) {
       result = with_crossings(scene, model, lattice);
       parsed.faces = crossed_faces(*result.bound.at({model, lattice}).crossings);
@@ -106,7 +114,7 @@ Scene with_lock(const Scene& scene, const std::string& model, const std::string&
     lock.faces = *std::move(parsed.faces);
     sort_unique(lock.faces);
     try {
-      lock.controls = unmoved_controls(lattice_in(scene, lattice), lock.faces, *parsed.continuity);
+      lock.controls = unmoved_controls(subdivision, lock.faces, *parsed.continuity);
     } catch (const ParameterError& error) {
       throw ParameterError("'lock' is '" + option + "': in " + lattice + " " + error.what());
     }

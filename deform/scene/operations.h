@@ -19,7 +19,9 @@ namespace espalier {
 // The table's parts.
 [[nodiscard]] std::vector<Operation> file_operations();
 [[nodiscard]] std::vector<Operation> inventory_operations();
+[[nodiscard]] std::vector<Operation> tensor_operations();
 [[nodiscard]] std::vector<Operation> lattice_operations();
+[[nodiscard]] std::vector<Operation> refine_operations();
 [[nodiscard]] std::vector<Operation> building_operations();
 [[nodiscard]] std::vector<Operation> pose_operations();
 [[nodiscard]] std::vector<Operation> deform_operations();

@@ -62,12 +62,11 @@ std::vector<glm::dvec3> moved_points(const Arguments& arguments,
 /// A lattice at rest that moves must be a valid one where it goes; a pose may fold.
 Scene move_points(const Scene& scene, const Arguments& arguments, const Progress& progress) {
   const std::string& name = arguments.text("lattice");
-  const SubdivisionLattice& lattice = lattice_in(scene, name);
   if (arguments.text("shape") == "pose") {
-    return with_pose(scene, name, moved_points(arguments, lattice.posed_points()));
+    return with_pose(scene, name, moved_points(arguments, lattice_in(scene, name).posed_points()));
   }
-  SubdivisionLattice moved = lattice;
-  moved.rest = moved_points(arguments, lattice.rest);
+  SubdivisionLattice moved = subdivision_lattice_in(scene, name, "moving points at rest");
+  moved.rest = moved_points(arguments, moved.rest);
   throw_if_defective(find_geometric_defects(*moved.complex, moved.rest, progress));
   return with_lattice(scene, name, std::move(moved));
 }

@@ -27,8 +27,19 @@ const Model& model_in(const Scene& scene, const std::string& name) {
   return find(scene.models, name, "model");
 }
 
-const SubdivisionLattice& lattice_in(const Scene& scene, const std::string& name) {
-  return *find(scene.lattices, name, "lattice");
+const Lattice& lattice_in(const Scene& scene, const std::string& name) {
+  return find(scene.lattices, name, "lattice");
+}
+
+const SubdivisionLattice& subdivision_lattice_in(const Scene& scene, const std::string& name,
+                                                 std::string_view what) {
+  const Lattice& lattice = lattice_in(scene, name);
+  const auto* subdivision = lattice.as<SubdivisionLattice>();
+  if (subdivision == nullptr) {
+    throw ParameterError(name + " is a " + std::string(lattice.type()) + " lattice; " +
+                         std::string(what) + " needs a subdivision lattice");
+  }
+  return *subdivision;
 }
 
 const Pose& pose_in(const Scene& scene, const std::string& name) {
@@ -42,18 +53,18 @@ Scene with_model(Scene scene, const std::string& name, Model model) {
   return scene;
 }
 
-Scene with_lattice(Scene scene, const std::string& name, SubdivisionLattice lattice) {
+Scene with_lattice(Scene scene, const std::string& name, Lattice lattice) {
   std::erase_if(scene.bound, [&](const auto& entry) { return entry.first.second == name; });
-  scene.lattices.insert_or_assign(name,
-                                  std::make_shared<const SubdivisionLattice>(std::move(lattice)));
+  scene.lattices.insert_or_assign(name, std::move(lattice));
   return scene;
 }
 
 Scene with_pose(Scene scene, const std::string& lattice, std::vector<glm::dvec3> pose) {
-  SubdivisionLattice posed = lattice_in(scene, lattice);
-  if (!pose.empty() && pose.size() != posed.rest.size()) {
+  const Lattice& found = lattice_in(scene, lattice);
+  const std::size_t n_controls = found.rest_points().size();
+  if (!pose.empty() && pose.size() != n_controls) {
     throw ParameterError("a pose of " + std::to_string(pose.size()) + " points for " + lattice +
-                         ", which has " + std::to_string(posed.rest.size()));
+                         ", which has " + std::to_string(n_controls));
   }
   for (std::size_t i = 0; i < pose.size(); ++i) {
     if (!is_coordinate(pose[i].x) || !is_coordinate(pose[i].y) || !is_coordinate(pose[i].z)) {
@@ -61,8 +72,7 @@ Scene with_pose(Scene scene, const std::string& lattice, std::vector<glm::dvec3>
                            " would be too far away, or nowhere");
     }
   }
-  posed.pose = std::move(pose);
-  scene.lattices[lattice] = std::make_shared<const SubdivisionLattice>(std::move(posed));
+  scene.lattices.insert_or_assign(lattice, found.with_pose(std::move(pose)));
   return scene;
 }
 

@@ -6,21 +6,24 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "deform/embed/crossings.h"
 #include "deform/embed/embed.h"
 #include "deform/model/model.h"
-#include "lattice/subdivision/subdivision_lattice.h"
+#include "lattice/io/lattice.h"
 #include "lattice/volume/volume.h"
 
 namespace espalier {
 
-/// Control points to move a lattice to, with the topology they are meant for. They may fold.
+/// Control points to move a lattice to, with the lattice they are meant for: of a subdivision
+/// lattice its cells. They may fold.
 struct Pose {
-  CellComplex complex;
-  std::vector<glm::dvec3> points;  ///< #vertices, model units
+  std::variant<CellComplex, TensorLattice, ThbLattice> lattice;
+  std::vector<glm::dvec3> points;  ///< #controls, model units
 };
 
 /// Boundary faces of a lattice at which the model must join what stays: the first layers of control
@@ -46,7 +49,7 @@ struct BoundModel {
 /// any others.
 struct Scene {
   std::map<std::string, Model> models;
-  std::map<std::string, std::shared_ptr<const SubdivisionLattice>> lattices;
+  std::map<std::string, Lattice> lattices;
   std::map<std::string, std::shared_ptr<const Pose>> poses;
   std::map<std::pair<std::string, std::string>, BoundModel> bound;  ///< by (model, lattice)
   /// By model that a lattice deformed: how many faces it tore where they leave it; absent: none.
@@ -55,14 +58,20 @@ struct Scene {
 
 /// The named object. Throw ParameterError if the scene has none of that name.
 [[nodiscard]] const Model& model_in(const Scene& scene, const std::string& name);
-[[nodiscard]] const SubdivisionLattice& lattice_in(const Scene& scene, const std::string& name);
+[[nodiscard]] const Lattice& lattice_in(const Scene& scene, const std::string& name);
 [[nodiscard]] const Pose& pose_in(const Scene& scene, const std::string& name);
+
+/// The named lattice for what only subdivision lattices can do. what: names that in the
+/// ParameterError for a lattice of another type.
+[[nodiscard]] const SubdivisionLattice& subdivision_lattice_in(const Scene& scene,
+                                                               const std::string& name,
+                                                               std::string_view what = "this");
 
 /// The scene with an object added or replaced.
 [[nodiscard]] Scene with_model(Scene scene, const std::string& name, Model model);
-[[nodiscard]] Scene with_lattice(Scene scene, const std::string& name, SubdivisionLattice lattice);
+[[nodiscard]] Scene with_lattice(Scene scene, const std::string& name, Lattice lattice);
 /// The scene with a lattice posed, or at rest if `pose` is empty; what is bound stays bound. pose:
-/// #vertices. Throws ParameterError for another number of points, or one that is not finite or
+/// #controls. Throws ParameterError for another number of points, or one that is not finite or
 /// beyond kLargestCoordinate.
 [[nodiscard]] Scene with_pose(Scene scene, const std::string& lattice,
                               std::vector<glm::dvec3> pose);

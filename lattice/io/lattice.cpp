@@ -139,16 +139,36 @@ Volume Lattice::freeze(const FreezeOptions& options, const Progress& progress) c
                     lattice_);
 }
 
-Lattice read_any_lattice(const std::string& path, const Progress& progress) {
+Lattice Lattice::with_pose(std::vector<glm::dvec3> pose) const {
+  return visit([&](auto lattice) {
+    lattice.pose = std::move(pose);
+    if constexpr (requires { lattice.pose_weights; }) {
+      if (lattice.pose.empty()) {
+        lattice.pose_weights.clear();
+      }
+    }
+    return Lattice(std::move(lattice));
+  });
+}
+
+std::variant<RawLattice, Lattice> read_lattice_parts(const std::string& path) {
   if (!is_json_path(path)) {
-    return read_lattice(path, progress);
+    return read_raw_lattice(path);
   }
   const std::string text = read_file(path);
   if (is_tensor_json(path, text)) {
     return std::visit([](auto lattice) { return Lattice(std::move(lattice)); },
                       parse_json_tensor(path, text));
   }
-  return build_lattice(parse_json_lattice(path, text), path, progress);
+  return parse_json_lattice(path, text);
+}
+
+Lattice read_any_lattice(const std::string& path, const Progress& progress) {
+  std::variant<RawLattice, Lattice> parts = read_lattice_parts(path);
+  if (auto* raw = std::get_if<RawLattice>(&parts)) {
+    return build_lattice(std::move(*raw), path, progress);
+  }
+  return std::get<Lattice>(std::move(parts));
 }
 
 void write_any_lattice(const std::string& path, const Lattice& lattice) {

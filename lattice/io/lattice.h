@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "lattice/core/progress.h"
+#include "lattice/io/lattice_file.h"
 #include "lattice/subdivision/freeze.h"
 #include "lattice/subdivision/subdivision_lattice.h"
 #include "lattice/tensor/tensor_lattice.h"
@@ -53,6 +54,16 @@ class Lattice {
   [[nodiscard]] Volume freeze(const FreezeOptions& options = {},
                               const Progress& progress = {}) const;
 
+  /// The same lattice in another pose, #controls points; none: at rest.
+  [[nodiscard]] Lattice with_pose(std::vector<glm::dvec3> pose) const;
+
+  /// What `visitor` makes of the lattice, which it gets as the type that it is.
+  template <class Visitor>
+  decltype(auto) visit(const Visitor& visitor) const {
+    return std::visit([&](const auto& lattice) -> decltype(auto) { return visitor(*lattice); },
+                      lattice_);
+  }
+
   /// The lattice as one type, for operations that only this type has; none if it is another.
   template <class Type>
   [[nodiscard]] const Type* as() const {
@@ -65,6 +76,10 @@ class Lattice {
                std::shared_ptr<const ThbLattice>>
       lattice_;
 };
+
+/// What a file of any type holds: a lattice, or the parts of a subdivision lattice, which may have
+/// defects. Throws FileError as read_raw_lattice() and parse_json_tensor().
+[[nodiscard]] std::variant<RawLattice, Lattice> read_lattice_parts(const std::string& path);
 
 /// Reads a lattice file of any type: .json, or .ovm for a subdivision lattice. Throws FileError and
 /// LatticeError as read_lattice() and parse_json_tensor().

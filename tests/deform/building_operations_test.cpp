@@ -44,7 +44,7 @@ std::string word(const char* text) {
 
 TEST(BuildingOperations, leave_the_scene_before_as_it_was_byte_for_byte) {
   const Scene before = scene_with_box();
-  const std::string bytes = json_text(lattice_in(before, "box"));
+  const std::string bytes = json_text(subdivision_lattice_in(before, "box"));
   const std::vector<std::pair<std::string, Values>> edits = {
       {"extrude", {{"faces", word("0-1")}, {"normal", 0.5}}},
       {"split", {{"edge", word("0-1")}}},
@@ -58,9 +58,9 @@ TEST(BuildingOperations, leave_the_scene_before_as_it_was_byte_for_byte) {
     Values in_place = values;
     in_place.emplace("output", word("box"));
     const Scene changed = after(before, name, in_place);
-    EXPECT_EQ(json_text(lattice_in(before, "box")), bytes) << name;
+    EXPECT_EQ(json_text(subdivision_lattice_in(before, "box")), bytes) << name;
     if (name != "weld" && name != "relax") {
-      EXPECT_NE(json_text(lattice_in(changed, "box")), bytes) << name;
+      EXPECT_NE(json_text(subdivision_lattice_in(changed, "box")), bytes) << name;
     }
   }
 }
@@ -71,8 +71,8 @@ TEST(BuildingOperations, transform_scales_then_rotates_then_moves) {
                              {"rotate", 90.0},
                              {"move", Numbers{0, 0, 5}},
                              {"about", Numbers{1, 0, 0}}});
-  const SubdivisionLattice& box = lattice_in(scene, "box");
-  const SubdivisionLattice& moved = lattice_in(scene, "new");
+  const SubdivisionLattice& box = subdivision_lattice_in(scene, "box");
+  const SubdivisionLattice& moved = subdivision_lattice_in(scene, "new");
   for (std::size_t i = 0; i < box.rest.size(); ++i) {
     const glm::dvec3 p = box.rest[i];
     EXPECT_NEAR(moved.rest[i].x, 1 - p.y, 1e-14);
@@ -84,7 +84,7 @@ TEST(BuildingOperations, transform_scales_then_rotates_then_moves) {
 TEST(BuildingOperations, transform_of_some_vertices_leaves_the_others) {
   const Scene scene = after(scene_with_box(), "transform",
                             {{"vertices", word("2,5,8,11")}, {"move", Numbers{1, 0, 0}}});
-  const SubdivisionLattice& moved = lattice_in(scene, "new");
+  const SubdivisionLattice& moved = subdivision_lattice_in(scene, "new");
   for (std::size_t i = 0; i < 12; ++i) {
     EXPECT_EQ(moved.rest[i].x, i % 3 == 2 ? 3.0 : static_cast<double>(i % 3));
   }
@@ -93,7 +93,7 @@ TEST(BuildingOperations, transform_of_some_vertices_leaves_the_others) {
 TEST(BuildingOperations, crease_marks_lines_and_bends_and_clears) {
   const auto n_sharp = [](const Scene& scene) {
     int n = 0;
-    for (const float s : lattice_in(scene, "new").sharpness.edges) {
+    for (const float s : subdivision_lattice_in(scene, "new").sharpness.edges) {
       n += s == 2.5f ? 1 : 0;
     }
     return n;
@@ -106,8 +106,8 @@ TEST(BuildingOperations, crease_marks_lines_and_bends_and_clears) {
       n_sharp(after(scene_with_box(), "crease", {{"edges", word("0-1,1-2")}, {"sharpness", 2.5}})),
       2);
   const Scene cleared = after(scene_with_box(), "crease", {{"all", true}, {"sharpness", 0.0}});
-  EXPECT_EQ(lattice_in(cleared, "new").sharpness,
-            smooth_sharpness(*lattice_in(cleared, "new").complex));
+  EXPECT_EQ(subdivision_lattice_in(cleared, "new").sharpness,
+            smooth_sharpness(*subdivision_lattice_in(cleared, "new").complex));
 }
 
 TEST(BuildingOperations, merge_joins_any_number) {
@@ -121,7 +121,7 @@ TEST(BuildingOperations, merge_joins_any_number) {
   scene = apply(operation_named("merge"), scene,
                 Arguments({{"lattice", std::vector<std::string>{"box", "box1", "box2"}},
                            {"output", word("bar")}}));
-  const SubdivisionLattice& bar = lattice_in(scene, "bar");
+  const SubdivisionLattice& bar = subdivision_lattice_in(scene, "bar");
   EXPECT_EQ(bar.complex->n_cells(), 6u);
   EXPECT_EQ(bar.complex->n_vertices(), 28u);
   EXPECT_EQ(bar.sharpness, automatic_sharpness(*bar.complex));

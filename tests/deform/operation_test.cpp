@@ -111,12 +111,13 @@ TEST(Operation, the_table_has_distinct_names_and_tells_all_about_its_parameters)
     }
   }
   EXPECT_EQ(names, (std::set<std::string>{
-                       "attach",      "bind",        "convert",    "crease",       "deform",
-                       "delete",      "extrude",     "merge",      "mirror",       "move points",
-                       "new annulus", "new barbell", "new box",    "new cylinder", "new junction",
-                       "new limb",    "new ogrid",   "new sphere", "new star",     "new torus",
-                       "open",        "refine",      "relax",      "save",         "save deformed",
-                       "set pose",    "split",       "transform",  "weld"}));
+                       "attach",      "bind",        "convert",      "crease",        "deform",
+                       "delete",      "extrude",     "merge",        "mirror",        "move points",
+                       "new annulus", "new barbell", "new bezier",   "new bspline",   "new nurbs",
+                       "new thb",     "new box",     "new cylinder", "new junction",  "new limb",
+                       "new ogrid",   "new sphere",  "new star",     "new torus",     "open",
+                       "refine",      "relax",       "save",         "save deformed", "set pose",
+                       "split",       "transform",   "weld"}));
   EXPECT_THROW((void)operation_named("new"), ParameterError);
 }
 
@@ -126,7 +127,7 @@ TEST(Operation, a_new_lattice_enters_the_scene_under_the_name_it_was_given) {
                                        {"max", std::vector<double>{1, 1, 6}},
                                        {"scheme", std::string("mj96")},
                                        {"output", std::string("tower")}}));
-  const SubdivisionLattice& lattice = lattice_in(scene, "tower");
+  const SubdivisionLattice& lattice = subdivision_lattice_in(scene, "tower");
   EXPECT_EQ(lattice.complex->n_cells(), 3u);
   EXPECT_EQ(lattice.rest.back(), glm::dvec3(1, 1, 6));
   EXPECT_EQ(lattice.scheme, Scheme::MacCrackenJoy);

@@ -33,26 +33,26 @@ std::string refusal(const std::string& line) {
 TEST(PoseOperations, move_points_moves_these_and_no_others_and_keeps_what_is_bound) {
   const Scene before = bound_scene();
   const Scene after = done(before, "move points lattice=box points=3,0 to=7,8,9,-1,-2,-3");
-  std::vector<glm::dvec3> expected = lattice_in(before, "box").rest;
+  std::vector<glm::dvec3> expected = subdivision_lattice_in(before, "box").rest;
   expected[3] = {7, 8, 9};
   expected[0] = {-1, -2, -3};
-  EXPECT_EQ(lattice_in(after, "box").pose, expected);
-  EXPECT_EQ(lattice_in(after, "box").rest, lattice_in(before, "box").rest);
+  EXPECT_EQ(subdivision_lattice_in(after, "box").pose, expected);
+  EXPECT_EQ(subdivision_lattice_in(after, "box").rest, subdivision_lattice_in(before, "box").rest);
   EXPECT_EQ(after.bound.at({"m", "box"}).binding, before.bound.at({"m", "box"}).binding);
   const Scene further = done(after, "move points lattice=box points=3 by=1,0,-1");
-  EXPECT_EQ(lattice_in(further, "box").pose[3], glm::dvec3(8, 8, 8));
+  EXPECT_EQ(subdivision_lattice_in(further, "box").pose[3], glm::dvec3(8, 8, 8));
 }
 
 TEST(PoseOperations, moving_points_at_rest_unties_the_models_and_refuses_an_invalid_lattice) {
   const Scene after = done(bound_scene(), "move points lattice=box points=0 by=-1,0,0 shape=rest");
-  EXPECT_EQ(lattice_in(after, "box").rest[0], glm::dvec3(-1, 0, 0));
+  EXPECT_EQ(subdivision_lattice_in(after, "box").rest[0], glm::dvec3(-1, 0, 0));
   EXPECT_TRUE(after.bound.empty());
   EXPECT_NE(refusal("move points lattice=box points=0 by=9,0,0 shape=rest"), "no error");
 }
 
 TEST(PoseOperations, set_pose_goes_back_to_rest) {
   const Scene posed = done(bound_scene(), "move points lattice=box points=0 by=1,1,1");
-  EXPECT_TRUE(lattice_in(done(posed, "set pose lattice=box"), "box").pose.empty());
+  EXPECT_TRUE(subdivision_lattice_in(done(posed, "set pose lattice=box"), "box").pose.empty());
 }
 
 TEST(PoseOperations, save_deformed_writes_what_the_bound_lattices_do_and_leaves_the_scene) {

@@ -60,7 +60,8 @@ TEST(Scene, a_copy_shares_what_did_not_change_and_is_its_own_otherwise) {
   const Scene before = with_bound(small_scene(), "m", "rest", {"uniform:1", "keep"});
   const Scene after = with_model(before, "n", model_in(before, "m"));
   EXPECT_FALSE(before.models.contains("n"));
-  EXPECT_EQ(after.lattices.at("rest"), before.lattices.at("rest"));
+  EXPECT_EQ(lattice_in(after, "rest").as<SubdivisionLattice>(),
+            lattice_in(before, "rest").as<SubdivisionLattice>());
   EXPECT_EQ(model_in(after, "n").bytes().data(), model_in(before, "m").bytes().data());
   EXPECT_EQ(after.bound.at({"m", "rest"}).volume, before.bound.at({"m", "rest"}).volume);
 }
@@ -90,7 +91,8 @@ TEST(Scene, replacing_a_model_or_a_lattice_drops_its_bindings_and_no_others) {
 
 TEST(Scene, deforming_a_model_in_place_binds_it_anew_where_it_went) {
   Scene scene = small_scene();
-  scene = with_lattice(scene, "rest", moved_by(lattice_in(scene, "rest"), {0.25, 0, 0}));
+  scene =
+      with_lattice(scene, "rest", moved_by(subdivision_lattice_in(scene, "rest"), {0.25, 0, 0}));
   const Scene once = deformed_scene(scene, "m", "m");
   EXPECT_FALSE(once.bound.contains({"m", "rest"}));
   EXPECT_EQ(model_in(once, "m").points()[0], glm::dvec3(0.75, 0.5, 0.5));
@@ -107,8 +109,9 @@ TEST(Scene, deforming_a_model_in_place_binds_it_anew_where_it_went) {
 
 TEST(Scene, deforming_leaves_the_model_and_keeps_its_binding_for_the_next_pose) {
   Scene scene = small_scene();
-  scene.poses["there"] = std::make_shared<const Pose>(Pose{
-      *lattice_in(scene, "rest").complex, moved_by(lattice_in(scene, "rest"), {0, 0, 0.5}).pose});
+  scene.poses["there"] = std::make_shared<const Pose>(
+      Pose{*subdivision_lattice_in(scene, "rest").complex,
+           moved_by(subdivision_lattice_in(scene, "rest"), {0, 0, 0.5}).pose});
   const Scene once = deformed_scene(scene, "m", "out");
   const Arguments posed({{"model", std::string("m")},
                          {"lattice", std::string("rest")},

@@ -17,14 +17,14 @@ TEST_F(CommandLine, names_the_commands_when_it_knows_none_of_that_name) {
             "eval, pull, weights, render");
   EXPECT_EQ(refusal({"new", "teapot", "-o", "a.json"}, 2),
             "there is no command 'teapot', only: ogrid, annulus, torus, sphere, star, barbell, "
-            "junction, limb, box, cylinder");
+            "junction, limb, bezier, bspline, nurbs, thb, box, cylinder");
   EXPECT_EQ(refusal({}, 2),
             "a command is missing, one of: new, convert, refine, extrude, attach, split, "
             "delete, merge, weld, mirror, transform, relax, crease, bind, deform, info, check, "
             "eval, pull, weights, render");
   EXPECT_EQ(refusal({"new"}, 2),
             "a command is missing, one of: ogrid, annulus, torus, sphere, star, barbell, junction, "
-            "limb, box, cylinder");
+            "limb, bezier, bspline, nurbs, thb, box, cylinder");
 }
 
 TEST_F(CommandLine, names_the_option_or_word_that_it_does_not_expect) {
@@ -45,7 +45,7 @@ TEST_F(CommandLine, names_what_is_missing) {
   EXPECT_EQ(refusal({"info"}, 2), "file is required");
   EXPECT_EQ(refusal({"render", "-o", "p.png"}, 2), "scene is required");
   EXPECT_EQ(refusal({"deform", "m.obj", "-o", "out.obj"}, 2), "--lattice is required");
-  EXPECT_EQ(refusal({"eval", "a.json"}, 2), "--at is required");
+  EXPECT_EQ(refusal({"eval", "a.json"}, 2), "--at or --uvw must be given, and not both");
   EXPECT_EQ(refusal({"new", "box", "-o"}, 2), "--output needs a value");
   EXPECT_EQ(refusal({"new", "box", "-o", ""}, 2), "--output must be a text that is not empty");
   EXPECT_EQ(refusal({"info", ""}, 2), "'file' must be a text that is not empty");

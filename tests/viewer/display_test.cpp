@@ -58,7 +58,7 @@ TEST_F(DisplayTest, a_model_follows_its_lattice_and_only_what_moved_is_uploaded)
     EXPECT_EQ(mesh().positions[i], at_rest[i]);
     EXPECT_GT(mesh().positions[i + 3].y, at_rest[i + 3].y);
   }
-  const SubdivisionLattice& bar = lattice_in(session_.scene(), "bar");
+  const SubdivisionLattice& bar = subdivision_lattice_in(session_.scene(), "bar");
   const std::size_t n_lattice = 2 * bar.complex->n_edges() + bar.rest.size();
   EXPECT_LE(renderer_.n_uploaded() - before, n_lattice + 3 + 3);
 }

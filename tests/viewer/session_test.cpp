@@ -45,7 +45,7 @@ class SessionTest : public ::testing::Test {
     session_.handle(MouseRelease{MouseButton::Left, at});
   }
   [[nodiscard]] const SubdivisionLattice& bar() const {
-    return lattice_in(session_.scene(), path("bar.json"));
+    return subdivision_lattice_in(session_.scene(), path("bar.json"));
   }
   /// The four vertices at an x, as the box's points tell.
   [[nodiscard]] Selection at_x(double x) const {
@@ -305,7 +305,7 @@ TEST_F(SessionTest, n_puts_a_box_round_the_models_and_chooses_it) {
   press({"n", "n"});
   EXPECT_EQ(session_.lattice(), path("lattice2.json"));
   EXPECT_EQ(session_.selection().size(), 8u);
-  const Box box = box_of(lattice_in(session_.scene(), path("lattice.json")).rest);
+  const Box box = box_of(lattice_in(session_.scene(), path("lattice.json")).rest_points());
   for (const glm::dvec3& point : model_in(session_.scene(), path("model.obj")).points()) {
     EXPECT_TRUE(box.grown(-0.1).contains(point));
   }

@@ -35,7 +35,8 @@ std::vector<glm::dvec3> segments(const LatticeElements& elements,
 }
 
 std::vector<glm::vec3> edge_colors(const Session& session) {
-  const SubdivisionLattice& lattice = lattice_in(session.scene(), session.lattice());
+  const SubdivisionLattice& lattice =
+      subdivision_lattice_in(session.scene(), session.lattice(), "the viewer");
   const Selection chosen = session.selected_vertices();
   std::vector<glm::vec3> colors;
   for (const EdgeId edge : lattice.complex->edges()) {
@@ -155,7 +156,8 @@ void Display::update_model(const Session& session, const std::string& name, Show
 void Display::update_lattice(const Session& session) {
   std::string key = session.lattice();
   const bool has_lattice = !key.empty();
-  const auto complex = has_lattice ? lattice_in(session.scene(), key).complex : nullptr;
+  const auto complex =
+      has_lattice ? subdivision_lattice_in(session.scene(), key, "the viewer").complex : nullptr;
   key += "/" + std::to_string(static_cast<int>(session.element_kind()));
   for (const std::int32_t element : session.selection()) {
     key += " " + std::to_string(element);

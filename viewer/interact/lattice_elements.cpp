@@ -112,7 +112,7 @@ Selection LatticeElements::loop(std::int32_t edge) const {
 }
 
 LatticeElements elements_of(const Scene& scene, const std::string& lattice) {
-  const CellComplex& complex = *lattice_in(scene, lattice).complex;
+  const CellComplex& complex = *subdivision_lattice_in(scene, lattice, "the viewer").complex;
   LatticeElements elements;
   elements.n_vertices = static_cast<std::int32_t>(complex.n_vertices());
   for (const EdgeId edge : complex.edges()) {
@@ -134,13 +134,13 @@ LatticeElements elements_of(const Scene& scene, const std::string& lattice) {
 }
 
 std::span<const glm::dvec3> points_of(const Scene& scene, const std::string& lattice, Shape shape) {
-  const SubdivisionLattice& found = lattice_in(scene, lattice);
-  return shape == Shape::Rest ? std::span<const glm::dvec3>(found.rest) : found.posed_points();
+  const Lattice& found = lattice_in(scene, lattice);
+  return shape == Shape::Rest ? found.rest_points() : found.posed_points();
 }
 
 glm::dvec3 outward_area(const Scene& scene, const std::string& lattice, std::int32_t face,
                         std::span<const glm::dvec3> points) {
-  const CellComplex& complex = *lattice_in(scene, lattice).complex;
+  const CellComplex& complex = *subdivision_lattice_in(scene, lattice, "the viewer").complex;
   std::vector<glm::dvec3> loop;
   for (const VertexId vertex : complex.vertices(FaceId{face})) {
     loop.push_back(points[vertex.index()]);

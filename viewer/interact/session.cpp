@@ -24,8 +24,8 @@ Box bounds_of(const Scene& scene) {
     box.add(model.points());
   }
   for (const auto& [name, lattice] : scene.lattices) {
-    box.add(lattice->rest);
-    box.add(lattice->posed_points());
+    box.add(lattice.rest_points());
+    box.add(lattice.posed_points());
   }
   return box;
 }
@@ -89,22 +89,28 @@ void Session::scene_changed() {
     lattice_ = scene().lattices.empty() ? "" : scene().lattices.begin()->first;
     selection_.clear();
   }
-  const auto now = lattice_.empty() ? nullptr : scene().lattices.at(lattice_);
-  if (now == elements_source_) {
+  const SubdivisionLattice* now =
+      lattice_.empty() ? nullptr : &subdivision_lattice_in(scene(), lattice_);
+  const SubdivisionLattice* before =
+      elements_source_ ? elements_source_->as<SubdivisionLattice>() : nullptr;
+  if (now == before) {
     return;
   }
-  if (now == nullptr || elements_source_ == nullptr || now->complex != elements_source_->complex) {
+  if (now == nullptr || before == nullptr || now->complex != before->complex) {
     elements_ = now == nullptr ? LatticeElements() : elements_of(scene(), lattice_);
     selection_.clear();
   }
-  elements_source_ = now;
+  elements_source_.reset();
+  if (now != nullptr) {
+    elements_source_ = lattice_in(scene(), lattice_);
+  }
 }
 
 void Session::choose_lattice(const std::string& name) {
   if (scene().lattices.contains(name) && name != lattice_) {
     transform_.reset();
     lattice_ = name;
-    elements_source_ = nullptr;
+    elements_source_.reset();
     scene_changed();
   }
 }

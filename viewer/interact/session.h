@@ -123,7 +123,7 @@ class Session {
   View view_;
   std::string lattice_;
   LatticeElements elements_;
-  std::shared_ptr<const SubdivisionLattice> elements_source_;
+  std::optional<Lattice> elements_source_;
   Selection selection_;
   std::optional<Transform> transform_;
   std::optional<Rubber> rubber_;

@@ -148,8 +148,9 @@ void draw_object_panel(const Session& session, std::vector<Action>& actions) {
     if (ImGui::Selectable(file_name(name).c_str(), name == session.lattice())) {
       actions.emplace_back([chosen = name](Session& target) { target.choose_lattice(chosen); });
     }
-    ImGui::TextColored(kFaint, "  %zu cells, %zu vertices", lattice->complex->n_cells(),
-                       lattice->complex->n_vertices());
+    const CellComplex& complex = *subdivision_lattice_in(scene, name).complex;
+    ImGui::TextColored(kFaint, "  %zu cells, %zu vertices", complex.n_cells(),
+                       complex.n_vertices());
   }
   ImGui::End();
 }

@@ -1,0 +1,150 @@
+/// Operations that refine lattices of all types, and models.
+
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "deform/model/surface_model.h"
+#include "deform/scene/lattice_parameters.h"
+#include "deform/scene/operations.h"
+#include "lattice/core/error.h"
+#include "lattice/subdivision/refine.h"
+
+namespace espalier {
+namespace {
+
+using Type = ParameterType;
+
+constexpr int kMostLevels = 8;
+
+void require_absent(const Arguments& arguments, std::initializer_list<const char*> names,
+                    const std::string& reason) {
+  for (const char* name : names) {
+    if (arguments.has(name) && (std::string(name) != "elevate" || arguments.flag(name))) {
+      throw ParameterError("'" + std::string(name) + "' is for " + reason);
+    }
+  }
+}
+
+int levels_of(const Arguments& arguments) {
+  const int levels = arguments.has("levels") ? arguments.integer("levels") : 1;
+  if (levels < 1 || levels > kMostLevels) {
+    throw ParameterError("'levels' must be 1 to " + std::to_string(kMostLevels));
+  }
+  return levels;
+}
+
+Lattice refined_by(const SubdivisionLattice& lattice, const Arguments& arguments,
+                   const Progress& progress) {
+  require_absent(arguments, {"box", "level"}, "thb lattices");
+  require_absent(arguments, {"elevate"}, "bezier, bspline and nurbs lattices");
+  SubdivisionLattice source = lattice;
+  source.scheme = scheme_of(arguments, lattice.scheme);
+  return refined(source, levels_of(arguments), progress);
+}
+
+Lattice refined_by(const TensorLattice& lattice, const Arguments& arguments, const Progress&) {
+  require_absent(arguments, {"scheme"}, "subdivision lattices");
+  require_absent(arguments, {"box", "level"}, "thb lattices");
+  TensorLattice result = lattice;
+  if (!arguments.flag("elevate")) {
+    for (int level = levels_of(arguments); level > 0; --level) {
+      result = refined(result);
+    }
+    return result;
+  }
+  require_absent(arguments, {"levels"}, "refining, --elevate raises the degree by one");
+  for (int axis = 0; axis < 3; ++axis) {
+    if (lattice.axes[static_cast<std::size_t>(axis)].n_controls() > 1) {
+      result = elevated(result, axis);
+    }
+  }
+  return result;
+}
+
+/// Every leaf made eight.
+ThbLattice refined_everywhere(ThbLattice lattice) {
+  std::vector<std::vector<GridIndex>> cells(
+      static_cast<std::size_t>(lattice.hierarchy->n_levels()));
+  for (const ThbCell& leaf : lattice.hierarchy->leaves()) {
+    cells[static_cast<std::size_t>(leaf.level)].push_back(leaf.index);
+  }
+  for (std::size_t level = 0; level < cells.size(); ++level) {
+    if (!cells[level].empty()) {
+      lattice = with_cells(lattice, static_cast<int>(level) + 1, cells[level]);
+    }
+  }
+  return lattice;
+}
+
+Lattice refined_by(const ThbLattice& lattice, const Arguments& arguments, const Progress&) {
+  require_absent(arguments, {"scheme"}, "subdivision lattices");
+  require_absent(arguments, {"elevate"}, "bezier, bspline and nurbs lattices");
+  if (arguments.has("box")) {
+    require_absent(arguments, {"levels"}, "refining everywhere, --level says how finely a box is");
+    const std::vector<double> box = arguments.numbers("box");
+    const int level = arguments.has("level") ? arguments.integer("level") : 1;
+    return with_cells(lattice, level,
+                      cells_of_box(*lattice.hierarchy, level, {box[0], box[1], box[2]},
+                                   {box[3], box[4], box[5]}));
+  }
+  require_absent(arguments, {"level"}, "a --box");
+  ThbLattice result = lattice;
+  for (int level = levels_of(arguments); level > 0; --level) {
+    result = refined_everywhere(std::move(result));
+  }
+  return result;
+}
+
+Scene refine_object(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  const std::string& name = arguments.text("input");
+  const std::string& output = arguments.text("output");
+  if (scene.models.contains(name)) {
+    require_absent(arguments, {"scheme"},
+                   "lattices; a model is refined as a Catmull-Clark surface");
+    require_absent(arguments, {"elevate", "box", "level"}, "lattices");
+    return with_model(scene, output,
+                      refined_model(model_in(scene, name), levels_of(arguments), output));
+  }
+  return with_lattice(scene, output, lattice_in(scene, name).visit([&](const auto& lattice) {
+    return refined_by(lattice, arguments, progress);
+  }));
+}
+
+}  // namespace
+
+std::vector<Operation> refine_operations() {
+  return {
+      {"refine",
+       "Refine a lattice, which changes nothing but its control points, or a model",
+       {{.name = "input",
+         .type = Type::ModelOrLattice,
+         .help = "a lattice (.json, .ovm), or a model (.obj, .off, .ply, .stl), which is refined "
+                 "as a Catmull-Clark surface",
+         .is_required = true,
+         .is_positional = true},
+        {.name = "levels",
+         .type = Type::Integer,
+         .help = "how often: subdivided, or every span of knots or every cell of a thb lattice "
+                 "halved (default 1)"},
+        {.name = "scheme",
+         .type = Type::Choice,
+         .help = "of a subdivision lattice: rules at extraordinary lines (default: its own)",
+         .choices = scheme_names()},
+        {.name = "elevate",
+         .type = Type::Flag,
+         .help = "of a bezier, bspline or nurbs lattice: raise the degree by one instead"},
+        {.name = "box",
+         .type = Type::Numbers,
+         .help = "of a thb lattice: only this box u0 v0 w0 u1 v1 w1 of [0,1]^3, along its cells",
+         .count = 6},
+        {.name = "level",
+         .type = Type::Integer,
+         .help = "what the box is refined to, from cells of the level before (default 1)"},
+        result_parameter("the refined lattice or model")},
+       refine_object},
+  };
+}
+
+}  // namespace espalier

@@ -1,0 +1,247 @@
+/// Operations that make Bézier, B-spline, NURBS and hierarchical lattices.
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "deform/model/point_selection.h"
+#include "deform/scene/lattice_parameters.h"
+#include "deform/scene/operations.h"
+#include "lattice/core/error.h"
+#include "lattice/core/text_scanner.h"
+
+namespace espalier {
+namespace {
+
+using Type = ParameterType;
+using Integers = std::vector<std::int64_t>;
+
+constexpr int kUsualDegree = 3;
+
+/// The numbers of a parameter, one an axis, each from `least` to `most`.
+std::array<int, 3> axis_numbers(const Arguments& arguments, const std::string& name, int least,
+                                int most) {
+  const Integers numbers = arguments.integers(name);
+  std::array<int, 3> result{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (numbers[axis] < least || numbers[axis] > most) {
+      throw ParameterError("'" + name + "' must be three numbers from " + std::to_string(least) +
+                           " to " + std::to_string(most));
+    }
+    result[axis] = static_cast<int>(numbers[axis]);
+  }
+  return result;
+}
+
+std::array<int, 3> counts_of(const Arguments& arguments) {
+  return axis_numbers(arguments, "counts", 1, kMostControlsOnAxis);
+}
+
+/// Three where nothing else is asked for, or what the control points allow.
+std::array<int, 3> degree_of(const Arguments& arguments, const std::array<int, 3>& counts) {
+  if (arguments.has("degree")) {
+    return axis_numbers(arguments, "degree", 0, kMostDegree);
+  }
+  std::array<int, 3> degree{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    degree[axis] = std::min(kUsualDegree, counts[axis] - 1);
+  }
+  return degree;
+}
+
+/// One word for all axes, or three with commas between.
+std::array<Ends, 3> ends_of(const Arguments& arguments) {
+  const std::string& text = arguments.text("ends");
+  std::vector<Ends> ends;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const auto named = ends_named(std::string_view(text).substr(begin, end - begin));
+    if (!named || *named == Ends::Explicit) {
+      ends.clear();
+      break;
+    }
+    ends.push_back(*named);
+    begin = end + 1;
+  }
+  if (ends.size() != 1 && ends.size() != 3) {
+    throw ParameterError("'ends' is " + quoted(text) +
+                         ", must be open, uniform, natural, tripled or periodic, or three of these "
+                         "with commas between, one an axis");
+  }
+  return {ends.front(), ends[ends.size() / 2], ends.back()};
+}
+
+/// One control point is an axis of its own.
+TensorAxis axis_of(int axis, int n_controls, int degree, Ends ends) {
+  if (n_controls == 1 && degree == 0) {
+    return {};
+  }
+  try {
+    return TensorAxis::make(n_controls, degree, ends);
+  } catch (const ParameterError& error) {
+    throw ParameterError(std::string("'counts' and --degree along ") + "uvw"[axis] + ": " +
+                         error.what());
+  }
+}
+
+/// The points of a model that the lattice is fitted to.
+std::vector<glm::dvec3> points_to_fit(const Model& model, const Arguments& arguments) {
+  const std::vector<std::string> only = arguments.texts("only");
+  const std::vector<double> weights = point_weights(model, only, "");
+  std::vector<glm::dvec3> points(model.points().begin(), model.points().end());
+  if (!weights.empty()) {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (weights[i] > 0) {
+        points[n++] = points[i];
+      }
+    }
+    points.resize(n);
+  }
+  return points;
+}
+
+OrientedBox box_of(const Scene& scene, const Arguments& arguments) {
+  constexpr double kUsualPadding = 0.05;
+  if (!arguments.has("fit")) {
+    for (const char* name : {"padding", "axes", "only"}) {
+      if (arguments.has(name)) {
+        throw ParameterError("'" + std::string(name) + "' is for --fit");
+      }
+    }
+    const glm::dvec3 low = arguments.has("min") ? arguments.vector("min") : glm::dvec3(0);
+    const glm::dvec3 high = arguments.has("max") ? arguments.vector("max") : glm::dvec3(1);
+    if (!(low.x < high.x && low.y < high.y && low.z < high.z)) {
+      throw ParameterError("'min' must be below --max along x, y and z");
+    }
+    Box box;
+    box.add(low);
+    box.add(high);
+    return oriented(box);
+  }
+  if (arguments.has("min") || arguments.has("max")) {
+    throw ParameterError("'fit' and --min, --max exclude each other");
+  }
+  const auto points = points_to_fit(model_in(scene, arguments.text("fit")), arguments);
+  const double padding = arguments.has("padding") ? arguments.number("padding") : kUsualPadding;
+  const bool is_principal = arguments.has("axes") && arguments.text("axes") == "principal";
+  try {
+    return is_principal ? fitted_principal_box(points, padding) : fitted_box(points, padding);
+  } catch (const ParameterError& error) {
+    throw ParameterError("'fit': " + std::string(error.what()));
+  }
+}
+
+TensorLattice tensor_lattice(TensorKind kind, const Scene& scene, const Arguments& arguments,
+                             const std::array<int, 3>& degree, const std::array<Ends, 3>& ends) {
+  const std::array<int, 3> counts = counts_of(arguments);
+  std::array<TensorAxis, 3> axes;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    axes[i] = axis_of(axis, counts[i], degree[i], ends[i]);
+  }
+  return make_tensor_lattice(kind, axes, box_of(scene, arguments), BoxFilling::Volume);
+}
+
+TensorLattice new_bezier(const Scene& scene, const Arguments& arguments) {
+  const std::array<int, 3> counts = counts_of(arguments);
+  return tensor_lattice(TensorKind::Bezier, scene, arguments,
+                        {counts[0] - 1, counts[1] - 1, counts[2] - 1},
+                        {Ends::Open, Ends::Open, Ends::Open});
+}
+
+TensorLattice new_spline(TensorKind kind, const Scene& scene, const Arguments& arguments) {
+  return tensor_lattice(kind, scene, arguments, degree_of(arguments, counts_of(arguments)),
+                        ends_of(arguments));
+}
+
+ThbLattice new_thb(const Scene& scene, const Arguments& arguments) {
+  const std::array<int, 3> counts = counts_of(arguments);
+  return make_thb_lattice(counts, degree_of(arguments, counts), box_of(scene, arguments));
+}
+
+Parameter counts_parameter(std::int64_t n) {
+  const std::string word = std::to_string(n);
+  return {.name = "counts",
+          .type = Type::Integers,
+          .help = "control points along u, v, w (default " + word + " " + word + " " + word + ")",
+          .count = 3,
+          .fallback = Value(Integers{n, n, n})};
+}
+
+Parameter degree_parameter() {
+  return {.name = "degree",
+          .type = Type::Integers,
+          .help = "along u, v, w (default 3, or less for fewer than four control points)",
+          .count = 3};
+}
+
+Parameter ends_parameter() {
+  return {.name = "ends",
+          .type = Type::Text,
+          .help =
+              "open, uniform, natural, tripled or periodic, or one an axis with commas between "
+              "(default open)",
+          .fallback = Value(std::string("open"))};
+}
+
+/// `more` and what all of these lattices have in common.
+std::vector<Parameter> box_parameters(std::vector<Parameter> more) {
+  std::vector<Parameter> parameters = std::move(more);
+  const std::vector<Parameter> common = {
+      {.name = "min",
+       .type = Type::Numbers,
+       .help = "lowest corner of what it fills (default 0 0 0)",
+       .count = 3},
+      {.name = "max", .type = Type::Numbers, .help = "highest corner (default 1 1 1)", .count = 3},
+      {.name = "fit", .type = Type::Model, .help = "a model to fill the box of, instead"},
+      {.name = "padding",
+       .type = Type::Number,
+       .help = "of --fit: room on each side, of the model's diagonal (default 0.05)"},
+      {.name = "axes",
+       .type = Type::Choice,
+       .help = "of --fit: the box's, the coordinate axes or the model's own (default world)",
+       .choices = {"world", "principal"}},
+      {.name = "only",
+       .type = Type::Text,
+       .help = "of --fit: only the points of this group or object, or @FILE: of these indices; may "
+               "repeat (default: all points)",
+       .is_list = true},
+      result_parameter("the lattice, .json")};
+  parameters.insert(parameters.end(), common.begin(), common.end());
+  return parameters;
+}
+
+/// An operation that adds the lattice that `make` makes.
+template <class Make>
+Operation making(const char* name, const char* summary, std::vector<Parameter> parameters,
+                 const Make& make) {
+  return {name, summary, box_parameters(std::move(parameters)),
+          [make](const Scene& scene, const Arguments& arguments, const Progress&) {
+            return with_lattice(scene, arguments.text("output"), make(scene, arguments));
+          }};
+}
+
+}  // namespace
+
+std::vector<Operation> tensor_operations() {
+  const auto spline = [](TensorKind kind) {
+    return [kind](const Scene& scene, const Arguments& arguments) {
+      return new_spline(kind, scene, arguments);
+    };
+  };
+  return {
+      making("new bezier", "Make a box of control points of one polynomial", {counts_parameter(4)},
+             new_bezier),
+      making("new bspline", "Make a box of control points of a B-spline",
+             {counts_parameter(6), degree_parameter(), ends_parameter()},
+             spline(TensorKind::BSpline)),
+      making("new nurbs", "Make a box of control points with weights, all 1 to begin with",
+             {counts_parameter(6), degree_parameter(), ends_parameter()},
+             spline(TensorKind::Nurbs)),
+      making("new thb", "Make a box of control points to refine where it matters",
+             {counts_parameter(6), degree_parameter()}, new_thb),
+  };
+}
+
+}  // namespace espalier
