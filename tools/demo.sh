@@ -51,5 +51,14 @@ picture block-before "$data/block.obj" barbell.ovm --view 20,35
 picture block-after bent.obj "$data/barbell_posed.json" --view 20,35
 
 echo
+echo "== The leg: a session of the viewer extrudes cells down it and bends the knee"
+leg() {
+  echo "\$ espalier-viewer $*"
+  "$top/build/bin/espalier-viewer" "$@"
+}
+leg figure.obj --script "$data/leg_session.txt" --size 1000x640 --screenshot viewer.png
+[ "$pictures" = no ] || cp viewer.png "$top/tools/pictures/viewer.png"
+
+echo
 echo "Models, lattices and pictures are in build/demo/:"
 ls -- *.png

@@ -188,6 +188,9 @@ ExitStatus run(const Operation& operation, const Arguments& arguments, const Ses
 
 Command operation_command(const Operation& operation) {
   std::vector<Parameter> parameters = operation.parameters;
+  for (Parameter& parameter : parameters) {
+    parameter.is_required = parameter.is_required || parameter.name == "output";
+  }
   for (Parameter& option : save_options(operation)) {
     parameters.push_back(std::move(option));
   }

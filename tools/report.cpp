@@ -209,6 +209,15 @@ std::string lock_text(const Lock& lock) {
                      counted(lock.controls.size(), "control point counts", "control points count"));
 }
 
+/// Nothing where the lattice froze as exactly as was asked.
+std::string freeze_error_text(double error) {
+  return error == 0 ? ""
+                    : fmt::format(
+                          "  the lattice is frozen only to about {:.0e} of its diagonal: its "
+                          "cells have too many faces for more\n",
+                          error);
+}
+
 /// Adds how many faces tore.
 void add_torn_faces(const Scene& scene, const std::string& name, Json& json, std::string& text) {
   const auto torn = scene.torn_faces.find(name);
@@ -229,6 +238,7 @@ void add_counts(const Scene& scene, Json& json, std::string& text) {
     if (is_locked) {
       counts["lock"] = lock_json(bound.lock);
     }
+    counts["freeze_error"] = bound.volume->freeze_error();
     if (scene.bound.size() == 1) {
       json.update(counts);
     } else {
@@ -239,6 +249,7 @@ void add_counts(const Scene& scene, Json& json, std::string& text) {
                         counts["inside"].dump(), counts["border"].dump(), counts["outside"].dump(),
                         counts["unconverged"].dump());
     text += is_locked ? lock_text(bound.lock) : "";
+    text += freeze_error_text(bound.volume->freeze_error());
   }
 }
 

@@ -134,7 +134,9 @@ Scene bind(const Scene& scene, const Arguments& arguments, const Progress& progr
   const std::string& lattice = arguments.text("lattice");
   Scene result = with_bound(scene, model, lattice,
                             {arguments.text("freeze"), arguments.text("outside")}, progress);
-  save_binding(result, model, lattice, arguments.text("output"));
+  if (arguments.has("output")) {
+    save_binding(result, model, lattice, arguments.text("output"));
+  }
   return result;
 }
 
@@ -252,8 +254,7 @@ std::vector<Operation> deform_operations() {
         outside_parameter(),
         {.name = "output",
          .type = Type::Path,
-         .help = "the binding, a file for `deform --binding`",
-         .is_required = true}},
+         .help = "the binding, a file for `deform --binding`"}},
        bind},
       {"deform",
        "Deform a model with a lattice and its pose",

@@ -105,7 +105,8 @@ std::vector<Operation> file_operations() {
          .type = Type::Text,
          .help = "of the volume: adaptive[:TOLERANCE], or uniform:N (default adaptive)",
          .fallback = Value(std::string("adaptive"))}},
-       save},
+       save,
+       false},
   };
 }
 

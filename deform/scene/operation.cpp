@@ -22,6 +22,14 @@ const T& get(const std::map<std::string, Value>& values, const std::string& name
   return *value;
 }
 
+std::string counted(const Parameter& parameter) {
+  return parameter.count == 0 ? "one or more " : std::to_string(parameter.count) + " ";
+}
+
+bool is_right_count(const Parameter& parameter, std::size_t n) {
+  return parameter.count == 0 ? n > 0 : n == parameter.count;
+}
+
 /// What a parameter's value must be.
 std::string expectation(const Parameter& parameter) {
   switch (parameter.type) {
@@ -32,9 +40,9 @@ std::string expectation(const Parameter& parameter) {
     case ParameterType::Number:
       return "a finite number";
     case ParameterType::Integers:
-      return std::to_string(parameter.count) + " whole numbers";
+      return counted(parameter) + "whole numbers";
     case ParameterType::Numbers:
-      return std::to_string(parameter.count) + " finite numbers";
+      return counted(parameter) + "finite numbers";
     case ParameterType::Choice: {
       std::string words;
       for (const std::string& choice : parameter.choices) {
@@ -66,11 +74,11 @@ bool fits(const Parameter& parameter, const Value& value) {
     }
     case ParameterType::Integers: {
       const auto* integers = std::get_if<std::vector<std::int64_t>>(&value);
-      return integers != nullptr && integers->size() == parameter.count;
+      return integers != nullptr && is_right_count(parameter, integers->size());
     }
     case ParameterType::Numbers: {
       const auto* numbers = std::get_if<std::vector<double>>(&value);
-      return numbers != nullptr && numbers->size() == parameter.count &&
+      return numbers != nullptr && is_right_count(parameter, numbers->size()) &&
              std::all_of(numbers->begin(), numbers->end(), is_finite);
     }
     case ParameterType::Choice: {

@@ -22,8 +22,8 @@ enum class ParameterType {
   Flag,
   Integer,
   Number,
-  Integers,  ///< `count` of them
-  Numbers,   ///< `count` of them
+  Integers,  ///< `count` of them, or one or more if `count` is 0
+  Numbers,   ///< the same
   Text,
   Choice,   ///< one of `choices`
   Path,     ///< of a file that is read or written
@@ -46,7 +46,7 @@ struct Parameter {
   bool is_positional = false;  ///< on the command line, without --name
   /// May occur more than once, if a text, a path or a name: its value is one text, or several.
   bool is_list = false;
-  std::size_t count = 1;                  ///< of Integers and Numbers
+  std::size_t count = 1;                  ///< of Integers and Numbers; 0: any number of them
   std::vector<std::string> choices = {};  ///< of a Choice
   std::optional<Value> fallback = {};     ///< the value when it is absent
 };
@@ -85,6 +85,7 @@ struct Operation {
   std::vector<Parameter> parameters;
   /// Gets checked arguments. Throws an Error and leaves the scene as it is if it cannot be done.
   std::function<Scene(const Scene&, const Arguments&, const Progress&)> run;
+  bool changes_scene = true;  ///< false: it only writes files
 };
 
 /// The arguments with fallbacks filled in. Throws ParameterError naming a parameter that is

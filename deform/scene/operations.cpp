@@ -10,7 +10,7 @@ const std::vector<Operation>& operations() {
   static const std::vector<Operation> kTable = [] {
     std::vector<Operation> table;
     for (auto part : {inventory_operations(), lattice_operations(), building_operations(),
-                      deform_operations(), file_operations()}) {
+                      pose_operations(), deform_operations(), file_operations()}) {
       std::move(part.begin(), part.end(), std::back_inserter(table));
     }
     return table;

@@ -21,6 +21,7 @@ namespace espalier {
 [[nodiscard]] std::vector<Operation> inventory_operations();
 [[nodiscard]] std::vector<Operation> lattice_operations();
 [[nodiscard]] std::vector<Operation> building_operations();
+[[nodiscard]] std::vector<Operation> pose_operations();
 [[nodiscard]] std::vector<Operation> deform_operations();
 
 }  // namespace espalier

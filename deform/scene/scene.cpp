@@ -1,6 +1,9 @@
 #include "deform/scene/scene.h"
 
+#include <cmath>
+
 #include "lattice/core/error.h"
+#include "lattice/core/text_scanner.h"
 
 namespace espalier {
 namespace {
@@ -12,6 +15,10 @@ const auto& find(const Map& map, const std::string& name, const char* what) {
     throw ParameterError(std::string("the scene has no ") + what + " named '" + name + "'");
   }
   return found->second;
+}
+
+bool is_coordinate(double x) {
+  return std::abs(x) <= kLargestCoordinate;  // false for what is not a number
 }
 
 }  // namespace
@@ -39,6 +46,23 @@ Scene with_lattice(Scene scene, const std::string& name, SubdivisionLattice latt
   std::erase_if(scene.bound, [&](const auto& entry) { return entry.first.second == name; });
   scene.lattices.insert_or_assign(name,
                                   std::make_shared<const SubdivisionLattice>(std::move(lattice)));
+  return scene;
+}
+
+Scene with_pose(Scene scene, const std::string& lattice, std::vector<glm::dvec3> pose) {
+  SubdivisionLattice posed = lattice_in(scene, lattice);
+  if (!pose.empty() && pose.size() != posed.rest.size()) {
+    throw ParameterError("a pose of " + std::to_string(pose.size()) + " points for " + lattice +
+                         ", which has " + std::to_string(posed.rest.size()));
+  }
+  for (std::size_t i = 0; i < pose.size(); ++i) {
+    if (!is_coordinate(pose[i].x) || !is_coordinate(pose[i].y) || !is_coordinate(pose[i].z)) {
+      throw ParameterError("point " + std::to_string(i) + " of " + lattice +
+                           " would be too far away, or nowhere");
+    }
+  }
+  posed.pose = std::move(pose);
+  scene.lattices[lattice] = std::make_shared<const SubdivisionLattice>(std::move(posed));
   return scene;
 }
 

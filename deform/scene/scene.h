@@ -61,5 +61,10 @@ struct Scene {
 /// The scene with an object added or replaced.
 [[nodiscard]] Scene with_model(Scene scene, const std::string& name, Model model);
 [[nodiscard]] Scene with_lattice(Scene scene, const std::string& name, SubdivisionLattice lattice);
+/// The scene with a lattice posed, or at rest if `pose` is empty; what is bound stays bound. pose:
+/// #vertices. Throws ParameterError for another number of points, or one that is not finite or
+/// beyond kLargestCoordinate.
+[[nodiscard]] Scene with_pose(Scene scene, const std::string& lattice,
+                              std::vector<glm::dvec3> pose);
 
 }  // namespace espalier

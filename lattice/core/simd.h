@@ -57,6 +57,10 @@ struct Vector<float> {
   ESPALIER_INLINE friend Vector fused_negative(Vector a, Vector b, Vector c) {
     return {_mm256_fnmadd_ps(a.lanes, b.lanes, c.lanes)};
   }
+  /// The larger of each two; b where one is not a number.
+  ESPALIER_INLINE friend Vector larger(Vector a, Vector b) {
+    return {_mm256_max_ps(a.lanes, b.lanes)};
+  }
   /// 1 / √a, correctly rounded steps; 0 where a is not positive.
   ESPALIER_INLINE friend Vector inverse_root_or_zero(Vector a) {
     const __m256 root = _mm256_div_ps(_mm256_set1_ps(1), _mm256_sqrt_ps(a.lanes));
@@ -86,6 +90,9 @@ struct Vector<double> {
   }
   ESPALIER_INLINE friend Vector fused_negative(Vector a, Vector b, Vector c) {
     return {_mm256_fnmadd_pd(a.lanes, b.lanes, c.lanes)};
+  }
+  ESPALIER_INLINE friend Vector larger(Vector a, Vector b) {
+    return {_mm256_max_pd(a.lanes, b.lanes)};
   }
   ESPALIER_INLINE friend Vector inverse_root_or_zero(Vector a) {
     const __m256d root = _mm256_div_pd(_mm256_set1_pd(1), _mm256_sqrt_pd(a.lanes));
@@ -118,6 +125,19 @@ ESPALIER_INLINE void store_interleaved(const Vector<double> (&xyz)[3], double* t
   _mm256_storeu_pd(to + 8, _mm256_permute2f128_pd(zx, yz, 0x31));
 }
 
+/// a0 a0 a0 a1 a1 a1 …: a number for each of what store_interleaved() writes.
+ESPALIER_INLINE void spread(Vector<float> a, Vector<float> (&out)[3]) {
+  out[0] = {_mm256_permutevar8x32_ps(a.lanes, _mm256_setr_epi32(0, 0, 0, 1, 1, 1, 2, 2))};
+  out[1] = {_mm256_permutevar8x32_ps(a.lanes, _mm256_setr_epi32(2, 3, 3, 3, 4, 4, 4, 5))};
+  out[2] = {_mm256_permutevar8x32_ps(a.lanes, _mm256_setr_epi32(5, 5, 6, 6, 6, 7, 7, 7))};
+}
+
+ESPALIER_INLINE void spread(Vector<double> a, Vector<double> (&out)[3]) {
+  out[0] = {_mm256_permute4x64_pd(a.lanes, _MM_SHUFFLE(1, 0, 0, 0))};
+  out[1] = {_mm256_permute4x64_pd(a.lanes, _MM_SHUFFLE(2, 2, 1, 1))};
+  out[2] = {_mm256_permute4x64_pd(a.lanes, _MM_SHUFFLE(3, 3, 3, 2))};
+}
+
 #else
 
 template <>
@@ -139,6 +159,9 @@ struct Vector<float> {
   }
   ESPALIER_INLINE friend Vector fused(Vector a, Vector b, Vector c) { return a * b + c; }
   ESPALIER_INLINE friend Vector fused_negative(Vector a, Vector b, Vector c) { return c - a * b; }
+  ESPALIER_INLINE friend Vector larger(Vector a, Vector b) {
+    return {_mm_max_ps(a.lanes, b.lanes)};
+  }
   ESPALIER_INLINE friend Vector inverse_root_or_zero(Vector a) {
     const __m128 root = _mm_div_ps(_mm_set1_ps(1), _mm_sqrt_ps(a.lanes));
     return {_mm_and_ps(root, _mm_cmpgt_ps(a.lanes, _mm_setzero_ps()))};
@@ -164,6 +187,9 @@ struct Vector<double> {
   }
   ESPALIER_INLINE friend Vector fused(Vector a, Vector b, Vector c) { return a * b + c; }
   ESPALIER_INLINE friend Vector fused_negative(Vector a, Vector b, Vector c) { return c - a * b; }
+  ESPALIER_INLINE friend Vector larger(Vector a, Vector b) {
+    return {_mm_max_pd(a.lanes, b.lanes)};
+  }
   ESPALIER_INLINE friend Vector inverse_root_or_zero(Vector a) {
     const __m128d root = _mm_div_pd(_mm_set1_pd(1), _mm_sqrt_pd(a.lanes));
     return {_mm_and_pd(root, _mm_cmpgt_pd(a.lanes, _mm_setzero_pd()))};
@@ -186,6 +212,18 @@ ESPALIER_INLINE void store_interleaved(const Vector<double> (&xyz)[3], double* t
   _mm_storeu_pd(to, _mm_unpacklo_pd(xyz[0].lanes, xyz[1].lanes));
   _mm_storeu_pd(to + 2, _mm_shuffle_pd(xyz[2].lanes, xyz[0].lanes, 0b10));
   _mm_storeu_pd(to + 4, _mm_unpackhi_pd(xyz[1].lanes, xyz[2].lanes));
+}
+
+ESPALIER_INLINE void spread(Vector<float> a, Vector<float> (&out)[3]) {
+  out[0] = {_mm_shuffle_ps(a.lanes, a.lanes, _MM_SHUFFLE(1, 0, 0, 0))};
+  out[1] = {_mm_shuffle_ps(a.lanes, a.lanes, _MM_SHUFFLE(2, 2, 1, 1))};
+  out[2] = {_mm_shuffle_ps(a.lanes, a.lanes, _MM_SHUFFLE(3, 3, 3, 2))};
+}
+
+ESPALIER_INLINE void spread(Vector<double> a, Vector<double> (&out)[3]) {
+  out[0] = {_mm_unpacklo_pd(a.lanes, a.lanes)};
+  out[1] = a;
+  out[2] = {_mm_unpackhi_pd(a.lanes, a.lanes)};
 }
 
 #endif

@@ -27,13 +27,18 @@ struct AdaptiveOptions {
   double tolerance = 1e-5;  ///< of positions, relative to the lattice's diagonal, for moves of
                             ///< about a cell; 1e-12 to 1e-1
   int most_levels = 8;      ///< of refinement in all directions, 1 to 8
+  /// Refinement in all directions also ends before the stencils of a level may have more weights
+  /// than this, of twelve bytes each: cells with many faces, whose points depend on every control
+  /// point, would fill any memory.
+  std::size_t most_weights = 60'000'000;
 };
 
 /// Regular cells become one tricubic patch, exactly. Line cells (scheme catmull-clark) become
 /// bicubic × cubic patches, exactly but for small leaves at their extraordinary corners, isolated
 /// across the line only: patches grow linearly with −log(tolerance). Other cells are refined in all
-/// directions, as often as the tolerance asks and most_levels allows, down to trilinear patches and
-/// pyramids. Throws ParameterError for options out of range. Tells `progress` "freeze".
+/// directions, as often as the tolerance asks, and most_levels and most_weights allow, down to
+/// trilinear patches and pyramids; Volume::freeze_error() tells if these miss the tolerance. Throws
+/// ParameterError for options out of range. Tells `progress` "freeze".
 [[nodiscard]] Volume freeze_adaptive(const SubdivisionLattice& lattice,
                                      const AdaptiveOptions& options = {},
                                      const Progress& progress = {});

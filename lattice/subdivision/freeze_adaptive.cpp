@@ -426,7 +426,11 @@ Volume freeze_adaptive(const SubdivisionLattice& lattice, const AdaptiveOptions&
       n_levels = levels_for(options.tolerance, freezer.leaf_error(rest), kRefinementRate,
                             options.most_levels);
     }
-    if (level == n_levels) {
+    if (level == n_levels || 4 * rows->n_weights() > options.most_weights) {
+      const double error = freezer.leaf_error(rest) * std::pow(kRefinementRate, level);
+      if (!rest.empty() && error > 2 * options.tolerance) {
+        volume.set_freeze_error(error);
+      }
       for (const CellId cell : rest) {
         freezer.freeze_leaf(cell);
       }

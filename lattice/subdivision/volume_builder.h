@@ -29,6 +29,9 @@ class VolumeBuilder {
 
   void add_patch(const Patch& patch, std::span<const std::int32_t> block);
 
+  /// See Volume::freeze_error().
+  void set_freeze_error(double error) { tables_.freeze_error = error; }
+
   [[nodiscard]] Volume build(std::vector<glm::dvec3> rest_controls) &&;
 
  private:

@@ -46,6 +46,7 @@ struct VolumeTables {
   /// Of the points from what their stencils make of the control points at rest or posed: they give
   /// a volume to control points that lie in a plane or on a line. Empty: none.
   std::vector<glm::dvec3> offsets = {};
+  double freeze_error = 0;  ///< see Volume::freeze_error()
 };
 
 /// Patches over points, and the points as stencils over control points. Immutable.
@@ -93,6 +94,10 @@ class Volume {
   /// Length of the diagonal of the control points' box at rest, of the points' box where they have
   /// offsets: the scale of tolerances.
   [[nodiscard]] double diagonal() const { return diagonal_; }
+
+  /// Where freezing could not be as exact as was asked: about how far it puts points from the
+  /// lattice's true volume, relative to the diagonal, for moves of about a cell. 0: as asked.
+  [[nodiscard]] double freeze_error() const { return tables_.freeze_error; }
 
   /// Heap memory in use.
   [[nodiscard]] std::size_t bytes() const;

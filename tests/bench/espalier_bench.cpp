@@ -1,214 +1,63 @@
-/// How fast the library is, as ratios between times measured in one run: to sorting, to copying
-/// memory, to evaluating. Each time is the best of a few repeats.
+/// How fast and how exact the library is, mostly as ratios between times measured in one run: to
+/// sorting, to copying memory, to the processor's peak, to other ways. Each time is the best of
+/// some repeats.
 ///
-/// usage: espalier_bench [cells along an axis of the large grid, 100]
-///        espalier_bench evaluation          only the table of evaluation and its marks
+/// usage: espalier_bench [SECTION…]    without any: all sections
 
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <algorithm>
-#include <array>
-#include <glm/common.hpp>
-#include <numeric>
-#include <random>
-#include <string>
+#include <exception>
+#include <span>
+#include <string_view>
 #include <vector>
 
-#include "deform/embed/embed.h"
-#include "deform/evaluate/displace.h"
-#include "lattice/build/primitives.h"
-#include "lattice/core/error.h"
-#include "lattice/core/index_order.h"
-#include "lattice/core/parallel.h"
-#include "lattice/subdivision/freeze.h"
-#include "lattice/subdivision/refine.h"
-#include "lattice/topology/cell_complex.h"
-#include "tests/bench/evaluation_bench.h"
-#include "tests/bench/timing.h"
+#include "tests/bench/sections.h"
 
-namespace espalier {
+namespace espalier::bench {
 namespace {
 
-using bench::copy_seconds;
-using bench::print;
-using bench::seconds;
+/// A part of the benchmark that can be asked for by its name.
+struct Section {
+  std::string_view name;
+  void (*run)();
+};
 
-std::size_t heap_in_use() {
-  const struct mallinfo2 info = ::mallinfo2();
-  return info.uordblks + info.hblkhd;
-}
+constexpr Section kSections[] = {
+    {"topology", bench_topology},     {"embedding", bench_embedding}, {"freezing", bench_freezing},
+    {"evaluation", bench_evaluation}, {"reposing", bench_reposing},
+};
 
-using HexahedronCorners = std::array<std::int32_t, 8>;
-
-/// A grid of n³ cells, cells and vertices numbered at random.
-std::vector<HexahedronCorners> shuffled_grid(int n, std::int32_t& n_vertices) {
-  const auto side = static_cast<std::int32_t>(n + 1);
-  n_vertices = side * side * side;
-  std::vector<std::int32_t> number(static_cast<std::size_t>(n_vertices));
-  std::iota(number.begin(), number.end(), 0);
-  std::mt19937 random(1);
-  std::shuffle(number.begin(), number.end(), random);
-  std::vector<HexahedronCorners> cells;
-  for (std::int32_t k = 0; k < n; ++k) {
-    for (std::int32_t j = 0; j < n; ++j) {
-      for (std::int32_t i = 0; i < n; ++i) {
-        HexahedronCorners& corners = cells.emplace_back();
-        for (std::int32_t c = 0; c < 8; ++c) {
-          const std::int32_t at = i + c % 2 + side * (j + c / 2 % 2 + side * (k + c / 4));
-          corners[static_cast<std::size_t>(c)] = number[static_cast<std::size_t>(at)];
-        }
+int run(std::span<const std::string_view> names) {
+  std::vector<Section> wanted;
+  for (const std::string_view name : names) {
+    const auto found = std::ranges::find(kSections, name, &Section::name);
+    if (found == std::end(kSections)) {
+      fmt::print(stderr, "espalier_bench: there is no section '{}', but", name);
+      for (const Section& section : kSections) {
+        fmt::print(stderr, " {}", section.name);
       }
+      fmt::print(stderr, "\n");
+      return 2;
     }
+    wanted.push_back(*found);
   }
-  std::shuffle(cells.begin(), cells.end(), random);
-  return cells;
-}
-
-/// Seconds to sort the cells' faces by their sorted vertices: what matching faces cannot do without
-/// in one way or another.
-double sort_seconds(const std::vector<HexahedronCorners>& cells) {
-  using Key = std::array<std::int32_t, 4>;
-  std::vector<Key> keys;
-  keys.reserve(cells.size() * 6);
-  for (const HexahedronCorners& cell : cells) {
-    for (const auto& face : kHexahedronFaces) {
-      Key key{};
-      std::transform(face.begin(), face.end(), key.begin(),
-                     [&](int corner) { return cell[static_cast<std::size_t>(corner)]; });
-      std::sort(key.begin(), key.end());
-      keys.push_back(key);
-    }
+  if (wanted.empty()) {
+    wanted.assign(std::begin(kSections), std::end(kSections));
   }
-  return seconds([&] { std::sort(keys.begin(), keys.end()); }, 1);
-}
-
-void bench_complex(int n) {
-  std::int32_t n_vertices = 0;
-  const std::vector<HexahedronCorners> cells = shuffled_grid(n, n_vertices);
-  const auto n_cells = static_cast<double>(cells.size());
-  fmt::print("cell complex of {} hexahedra in random order\n", cells.size());
-  const std::size_t heap_before = heap_in_use();
-  {
-    const CellComplex complex(match_faces(hexahedron_loops(n_vertices, cells)));
-    print("bytes a cell, by its own count", static_cast<double>(complex.bytes()) / n_cells, "B");
-    print("bytes a cell, on the heap", static_cast<double>(heap_in_use() - heap_before) / n_cells,
-          "B");
+  for (const Section& section : wanted) {
+    fmt::print("== {}\n", section.name);
+    section.run();
   }
-  for (const int threads : {1, 0}) {
-    set_thread_count(threads);
-    const std::string with =
-        threads == 1 ? ", one thread" : fmt::format(", {} threads", thread_count());
-    const double sort = sort_seconds(cells);
-    const CellLoops loops = hexahedron_loops(n_vertices, cells);
-    Polyhedra tables;
-    const double match = seconds([&] { tables = match_faces(loops); });
-    const double check = seconds([&] { const CellComplex complex(tables); });
-    const double build = seconds([&] { const auto complex = CellComplex::from_valid(tables); });
-    print("match faces, to one std::sort of their keys" + with, match / sort, "sorts");
-    print("build, unchecked" + with, build / sort, "sorts");
-    print("build, checked" + with, check / sort, "sorts");
-    print("match and build, checked" + with, (match + check) / sort, "sorts");
-  }
-}
-
-SubdivisionLattice lattice_from(CellMesh mesh) {
-  SubdivisionLattice lattice;
-  lattice.complex = std::make_shared<const CellComplex>(std::move(mesh.cells));
-  lattice.rest = std::move(mesh.points);
-  lattice.sharpness = automatic_sharpness(*lattice.complex);
-  return lattice;
-}
-
-void bench_refine(const std::string& name, const SubdivisionLattice& lattice, int levels) {
-  const SubdivisionLattice coarse = refined(lattice, levels - 1);
-  const Sharpness sharpness = with_touching_elements(*coarse.complex, coarse.sharpness);
-  Refinement level;
-  const auto refine_once = [&] { level = refine(*coarse.complex, sharpness, coarse.scheme); };
-  refine_once();
-  fmt::print("refine {}, level {} of {} cells\n", name, levels, level.complex->n_cells());
-  const auto n_cells = static_cast<double>(level.complex->n_cells());
-  for (const int threads : {1, 0}) {
-    set_thread_count(threads);
-    const std::string with =
-        threads == 1 ? ", one thread" : fmt::format(", {} threads", thread_count());
-    const double refining = seconds(refine_once);
-    const Polyhedra tables = level.complex->polyhedra();
-    const double build = seconds([&] { const auto complex = CellComplex::from_valid(tables); });
-    const std::size_t bytes = level.complex->bytes() + level.stencils.bytes();
-    print("microseconds a child" + with, refining / n_cells * 1e6, "µs");
-    print("to building its complex alone" + with, refining / build, "builds");
-    print("to copying what it makes" + with, refining / copy_seconds(bytes), "copies");
-    std::vector<glm::dvec3> points;
-    const double apply = seconds([&] { points = level.stencils.apply(coarse.rest); });
-    const std::size_t traffic = level.stencils.bytes() + points.size() * sizeof(glm::dvec3);
-    print("stencils, to copying them and their points" + with, apply / copy_seconds(traffic),
-          "copies");
-  }
-}
-
-void bench_deform() {
-  const SubdivisionLattice lattice = lattice_from(make_box({6, 6, 6}, {0, 0, 0}, {1, 1, 1}));
-  const Volume volume = freeze_uniform(lattice, 3);
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> place(0.01, 0.99);
-  std::vector<glm::dvec3> points(100000);
-  for (glm::dvec3& point : points) {
-    point = {place(random), place(random), place(random)};
-  }
-  fmt::print("{} points in {} patches\n", points.size(), volume.n_patches());
-  std::vector<glm::dvec3> pose = lattice.rest;
-  for (glm::dvec3& point : pose) {
-    point += 0.1 * point * point;
-  }
-  const std::vector<glm::dvec3> displacements = volume.displacements(pose);
-  const auto n = static_cast<double>(points.size());
-  for (const int threads : {1, 0}) {
-    set_thread_count(threads);
-    const std::string with =
-        threads == 1 ? ", one thread" : fmt::format(", {} threads", thread_count());
-    Binding binding;
-    const double embedding = seconds([&] { binding = embed(volume, points); });
-    std::vector<glm::dvec3> moved;
-    const double displacing =
-        seconds([&] { moved = displaced_points(volume, binding, points, displacements); }, 10);
-    print("embed, microseconds a point" + with, embedding / n * 1e6, "µs");
-    print("embed, to displacing the points" + with, embedding / displacing, "times");
-    const std::size_t bytes = points.size() * (3 * sizeof(glm::dvec3) + 2 * sizeof(std::int32_t));
-    print("displace, to copying points, places and result" + with, displacing / copy_seconds(bytes),
-          "copies");
-  }
-}
-
-int run(int argc, char** argv) {
-  constexpr std::size_t kMostPoints = 10000000;
-  if (argc > 1 && std::string(argv[1]) == "evaluation") {
-    bench_evaluation(kMostPoints);
-    return 0;
-  }
-  const int n = argc > 1 ? std::atoi(argv[1]) : 100;
-  if (n < 1 || n > 400) {
-    fmt::print(stderr, "espalier_bench: the grid has {} cells along an axis, must be 1 to 400\n",
-               n);
-    return 2;
-  }
-  bench_complex(n);
-  CylinderOptions cylinder;
-  cylinder.sectors = 5;
-  cylinder.layers = 3;
-  bench_refine("a cylinder of 15 wedges", lattice_from(make_cylinder(cylinder)), 5);
-  bench_refine("a grid of 216 cubes", lattice_from(make_box({6, 6, 6}, {0, 0, 0}, {1, 1, 1})), 3);
-  bench_deform();
-  bench_evaluation(kMostPoints);
   return 0;
 }
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::bench
 
 int main(int argc, char** argv) {
   try {
-    return espalier::run(argc, argv);
+    return espalier::bench::run(std::vector<std::string_view>(argv + 1, argv + argc));
   } catch (const std::exception& error) {
     fmt::print(stderr, "espalier_bench: {}\n", error.what());
     return 1;

@@ -1,15 +1,12 @@
 // How fast evaluation is, beside the processor's peak, memory, and OpenSubdiv's CPU evaluator.
 
-#include "tests/bench/evaluation_bench.h"
-
 #include <fmt/format.h>
 #include <immintrin.h>
-#include <opensubdiv/osd/cpuEvaluator.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 #include <glm/common.hpp>
 #include <numbers>
 #include <numeric>
@@ -19,44 +16,17 @@
 
 #include "deform/evaluate/evaluator.h"
 #include "lattice/core/parallel.h"
+#include "tests/bench/sections.h"
+#include "tests/bench/timing.h"
+#include "tests/bench/weight_rows.h"
 #include "tests/support/families.h"
 #include "tests/support/spline_volume.h"
 
-namespace espalier {
+namespace espalier::bench {
 namespace {
 
 constexpr int kCells = 10;  // an axis: 11 control points
 constexpr double kTricubicFma = 189;
-
-double now() {
-  timespec time{};
-  ::clock_gettime(CLOCK_MONOTONIC, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-/// The least times of several works, taken in turn.
-template <class... Works>
-std::array<double, sizeof...(Works)> best_seconds(int rounds, const Works&... works) {
-  std::array<double, sizeof...(Works)> best;
-  best.fill(1e300);
-  for (int round = 0; round < rounds; ++round) {
-    std::size_t at = 0;
-    const auto time = [&](const auto& work) {
-      const double start = now();
-      work();
-      best[at] = std::min(best[at], now() - start);
-      ++at;
-    };
-    (time(works), ...);
-  }
-  return best;
-}
-
-void print(const std::string& what, double value, char relation, double mark) {
-  const bool is_reached = relation == '<' ? value <= mark : value >= mark;
-  fmt::print("  {:<58} {:>8.3g}  {} {:<5} {}\n", what, value, relation == '<' ? "≤" : "≥", mark,
-             is_reached ? "reached" : "missed");
-}
 
 /// Fused multiplications and additions of ten independent vectors, `n` each.
 [[gnu::target("avx2,fma"), gnu::noinline]] float spin(int n) {
@@ -110,44 +80,20 @@ Surface surface_of(std::size_t n) {
   return surface;
 }
 
-/// Rows of 64 weights, a patch's control points each, as OpenSubdiv and a plain loop read them.
-struct Rows {
-  std::vector<int> sizes, offsets, indices;
-  std::vector<float> weights;
-
-  Rows(const Volume& volume, const Surface& surface) {
-    for (std::size_t i = 0; i < surface.patches.size(); ++i) {
-      const auto block = volume.block(static_cast<std::size_t>(surface.patches[i]));
-      sizes.push_back(64);
-      offsets.push_back(static_cast<int>(64 * i));
-      for (std::size_t k = 0; k < 64; ++k) {
-        indices.push_back(block[k % block.size()]);
-        weights.push_back(1.0F / 64);
-      }
+/// Rows of 64 weights, a patch's control points each: not the right ones, but as many.
+WeightRows rows_of(const Volume& volume, const Surface& surface) {
+  const std::vector<float> weights(64, 1.0F / 64);
+  std::vector<std::int32_t> indices(64);
+  WeightRows rows;
+  for (const std::int32_t patch : surface.patches) {
+    const auto block = volume.block(static_cast<std::size_t>(patch));
+    for (std::size_t k = 0; k < 64; ++k) {
+      indices[k] = block[k % block.size()];
     }
+    rows.add<float>(indices, weights);
   }
-
-  void evaluate_as_opensubdiv(const float* from, float* to) const {
-    using OpenSubdiv::Osd::BufferDescriptor;
-    OpenSubdiv::Osd::CpuEvaluator::EvalStencils(
-        from, BufferDescriptor(0, 3, 4), to, BufferDescriptor(0, 3, 4), sizes.data(),
-        offsets.data(), indices.data(), weights.data(), 0, static_cast<int>(sizes.size()));
-  }
-
-  void evaluate_plainly(const float* from, float* to) const {
-    for (std::size_t i = 0; i < sizes.size(); ++i) {
-      float sum[3] = {0, 0, 0};
-      for (int k = offsets[i]; k < offsets[i] + sizes[i]; ++k) {
-        const float* const point = from + 4 * indices[static_cast<std::size_t>(k)];
-        const float weight = weights[static_cast<std::size_t>(k)];
-        sum[0] += weight * point[0];
-        sum[1] += weight * point[1];
-        sum[2] += weight * point[2];
-      }
-      std::copy_n(sum, 3, to + 4 * i);
-    }
-  }
-};
+  return rows;
+}
 
 /// Nanoseconds a point of the tricubic's positions.
 double bench_tricubic(std::size_t n, double peak, double ns_before) {
@@ -166,33 +112,33 @@ double bench_tricubic(std::size_t n, double peak, double ns_before) {
                        {.points = points, .determinants = determinants, .normals = normals});
   };
   const auto n_points = static_cast<double>(n);
-  const int rounds = n > 1000000 ? 12 : 60;
+  const int rounds = n > 1000000 ? 5 : n > 100000 ? 10 : 30;
+  WeightRows rows;  // for the largest number of points they would need too much memory
+  std::vector<float> to;
+  if (n < 1000000) {
+    rows = rows_of(volume, surface);
+    to.resize(4 * n);
+  }
   set_thread_count(1);
   float sink = 0;
-  const auto [one, with_normals, spinning] =
-      best_seconds(rounds, positions, frames, [&] { sink += spin(100000); });
+  const auto [one, with_normals, spinning, opensubdiv, plain] = best_seconds(
+      rounds, positions, frames, [&] { sink += spin(100000); },
+      [&] { rows.apply_as_opensubdiv(motion.values(), to.data()); },
+      [&] { rows.apply_plainly(motion.values(), to.data()); });
   peak = sink > 0 ? std::max(peak, 100000 * 80 / spinning) : peak;
-  set_thread_count(2);
-  const auto [two] = best_seconds(rounds, positions);
-  set_thread_count(1);
   const double ns = one / n_points * 1e9;
   fmt::print("tricubic, {} points: {:.2f} ns a point\n", n, ns);
   if (n < 1000000) {
-    print("positions, to the FMA peak", kTricubicFma * n_points / one / peak, '>',
-          n < 100000 ? 0.75 : 0.85);
-    const Rows rows(volume, surface);
-    std::vector<float> to(4 * n);
-    const auto [opensubdiv, plain] = best_seconds(
-        n < 100000 ? 60 : 12, [&] { rows.evaluate_as_opensubdiv(motion.values(), to.data()); },
-        [&] { rows.evaluate_plainly(motion.values(), to.data()); });
-    print("positions, times as fast as OpenSubdiv's EvalStencils", opensubdiv / one, '>', 25);
-    print("positions, times as fast as a plain loop over rows", plain / one, '>', 7);
+    print_mark("positions, to the FMA peak", kTricubicFma * n_points / one / peak, '>',
+               n < 100000 ? 0.75 : 0.85);
+    print_mark("positions, times as fast as OpenSubdiv's EvalStencils", opensubdiv / one, '>', 25);
+    print_mark("positions, times as fast as a plain loop over rows", plain / one, '>', 7);
   } else {
-    print("positions, to those of 527,252 points", ns / ns_before, '<', 1.1);
+    print_mark("positions, to those of 527,252 points", ns / ns_before, '<', 1.1);
   }
-  print("positions, normals, determinants, to positions", with_normals / one, '<', 2.5);
+  print_mark("positions, normals, determinants, to positions", with_normals / one, '<', 2.5);
   if (n > 100000) {
-    print("two threads, times as fast as one", one / two, '>', 1.8);
+    print_mark("two threads, times as fast as one", two_thread_gain(rounds, positions), '>', 1.8);
   }
   return ns;
 }
@@ -227,17 +173,17 @@ void bench_trilinear(std::size_t n) {
   std::vector<char> from(24 * n, 1);
   std::vector<char> to(24 * n, 2);
   const auto [evaluating, copying, copying_half] = best_seconds(
-      n > 1000000 ? 12 : 60, [&] { evaluator.evaluate(motion, {.points = points}); },
+      n > 1000000 ? 5 : 30, [&] { evaluator.evaluate(motion, {.points = points}); },
       [&] { std::memcpy(to.data(), from.data(), 24 * n); },
       [&] { std::memcpy(to.data(), from.data(), 12 * n); });
   fmt::print("trilinear, {} points: {:.2f} ns a point; {:.2f} memcpys of 12 bytes\n", n,
              evaluating / static_cast<double>(n) * 1e9, evaluating / copying_half);
-  print("positions, to a memcpy of 24 bytes a point", evaluating / copying, '<', 2.2);
+  print_mark("positions, to a memcpy of 24 bytes a point", evaluating / copying, '<', 2.2);
 }
 
 }  // namespace
 
-void bench_evaluation(std::size_t max_points) {
+void bench_evaluation() {
   fmt::print("evaluation in float, {}, one thread\n", name_of(instruction_set()));
   if (available_instruction_sets().back() != InstructionSet::Avx2) {
     fmt::print("  the marks are for AVX2, which this processor has not\n");
@@ -249,12 +195,10 @@ void bench_evaluation(std::size_t max_points) {
   const double peak = sink > 0 ? 100000 * 80 / spinning : 0;
   double ns = 0;
   for (const std::size_t n : {std::size_t{46590}, std::size_t{527252}, std::size_t{10000000}}) {
-    if (n <= max_points) {
-      ns = bench_tricubic(n, peak, ns);
-      bench_trilinear(n);
-    }
+    ns = bench_tricubic(n, peak, ns);
+    bench_trilinear(n);
   }
   set_thread_count(0);
 }
 
-}  // namespace espalier
+}  // namespace espalier::bench

@@ -3,41 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
-#include <new>
 #include <random>
 
 #include "deform/evaluate/displace.h"
 #include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
+#include "tests/deform/allocations.h"
 #include "tests/support/families.h"
 #include "tests/support/spline_volume.h"
-
-namespace {
-
-std::atomic<std::size_t> allocations = 0;
-
-}  // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace espalier {
 namespace {
@@ -193,17 +171,17 @@ void expect_equals_bezier_patches(InstructionSet set, const Precision<Real>& pre
   }
 }
 
-class EvaluatorOf : public ::testing::TestWithParam<InstructionSet> {};
+class EvaluatorOnEverySet : public ::testing::TestWithParam<InstructionSet> {};
 
-TEST_P(EvaluatorOf, double_equals_bezier_patches_of_all_degrees) {
+TEST_P(EvaluatorOnEverySet, equals_bezier_patches_of_all_degrees_in_double) {
   expect_equals_bezier_patches<double>(GetParam(), kDouble);
 }
 
-TEST_P(EvaluatorOf, float_equals_bezier_patches_of_all_degrees) {
+TEST_P(EvaluatorOnEverySet, equals_bezier_patches_of_all_degrees_in_float) {
   expect_equals_bezier_patches<float>(GetParam(), kFloat);
 }
 
-TEST_P(EvaluatorOf, b_splines_equals_their_bezier_patches) {
+TEST_P(EvaluatorOnEverySet, equals_the_bezier_patches_of_b_splines) {
   const Example example =
       example_of(test::spline_volume({1, 2, 4}, test::grid_points({1, 2, 4})), 9);
   const Evaluator<double> evaluator(example.volume, example.bound(), GetParam());
@@ -242,12 +220,12 @@ void expect_same_bits_whatever_threads_scope_and_wishes(InstructionSet set) {
   }
 }
 
-TEST_P(EvaluatorOf, any_number_of_threads_scope_and_outputs_gives_the_same_bits) {
+TEST_P(EvaluatorOnEverySet, gives_the_same_bits_for_any_number_of_threads_scope_and_outputs) {
   expect_same_bits_whatever_threads_scope_and_wishes<float>(GetParam());
   expect_same_bits_whatever_threads_scope_and_wishes<double>(GetParam());
 }
 
-TEST_P(EvaluatorOf, unmoved_points_keeps_their_bits_at_the_ends_of_patches_too) {
+TEST_P(EvaluatorOnEverySet, keeps_the_bits_of_unmoved_points_at_the_ends_of_patches_too) {
   const Volume grid = test::spline_volume({4, 1, 1}, test::grid_points({4, 1, 1}));
   const std::vector<std::int32_t> patches = {0, 0, 0, 1, 1, 1, 2, 2, 3};
   const std::vector<glm::dvec3> uvw = {{1, 0.3, 0.7}, {1, 1, 1},     {0.4, 0.2, 0.1},
@@ -269,7 +247,7 @@ TEST_P(EvaluatorOf, unmoved_points_keeps_their_bits_at_the_ends_of_patches_too) 
   EXPECT_NEAR(moved[8].y, points[8].y + 0.7, 1e-15);
 }
 
-TEST_P(EvaluatorOf, moved_patches_leaves_the_others_alone) {
+TEST_P(EvaluatorOnEverySet, leaves_patches_alone_that_have_not_moved) {
   const Example example =
       example_of(test::spline_volume({8, 1, 1}, test::grid_points({8, 1, 1})), 5);
   std::vector<glm::dvec3> displacements(example.volume.n_points(), glm::dvec3(0));
@@ -282,22 +260,22 @@ TEST_P(EvaluatorOf, moved_patches_leaves_the_others_alone) {
   }
 }
 
-TEST_P(EvaluatorOf, frames_allocates_nothing) {
+TEST_P(EvaluatorOnEverySet, allocates_nothing_in_a_frame) {
   const Example example = example_of(mixed_volume(), 20);
   const Evaluator<float> evaluator(example.volume, example.bound(), GetParam());
   VolumeMotion<float> motion(example.displacements);
   Results<float> results = evaluated(evaluator, motion);
   set_thread_count(1);  // which threads work on what is chance
   evaluator.evaluate(motion, results.all());
-  const std::size_t before = allocations;
+  const std::size_t before = test::n_allocations();
   motion.set(example.displacements);
   evaluator.evaluate(motion, results.all());
   evaluator.evaluate(motion, results.all(), Scope::Changed);
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::n_allocations(), before);
   set_thread_count(0);
 }
 
-TEST_P(EvaluatorOf, tiny_and_huge_lattices_makes_no_nonsense) {
+TEST_P(EvaluatorOnEverySet, bears_tiny_and_huge_lattices) {
   for (const double scale : {1e-8, 1e-3, 1e8}) {
     std::vector<glm::dvec3> controls = test::grid_points({2, 2, 2});
     for (glm::dvec3& point : controls) {
@@ -320,7 +298,7 @@ TEST_P(EvaluatorOf, tiny_and_huge_lattices_makes_no_nonsense) {
   }
 }
 
-TEST_P(EvaluatorOf, huge_and_denormal_displacements_stay_finite) {
+TEST_P(EvaluatorOnEverySet, stays_finite_under_huge_and_denormal_displacements) {
   const Example example = example_of(mixed_volume(), 5);
   for (const double size : {1e-310, 1e-42, 1e12}) {
     std::vector<glm::dvec3> displacements = example.displacements;
@@ -337,7 +315,7 @@ TEST_P(EvaluatorOf, huge_and_denormal_displacements_stay_finite) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(InstructionSets, EvaluatorOf,
+INSTANTIATE_TEST_SUITE_P(InstructionSets, EvaluatorOnEverySet,
                          ::testing::ValuesIn(available_instruction_sets()),
                          [](const auto& tested) { return std::string(name_of(tested.param)); });
 

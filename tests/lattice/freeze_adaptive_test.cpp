@@ -246,6 +246,17 @@ TEST(CellClassifier, tells_regular_line_and_other_cells_apart) {
   EXPECT_EQ(count(creased)[Kind::Other], 4);
 }
 
+TEST(FreezeAdaptive, ends_where_the_weights_would_be_too_many_and_says_how_exact_it_is) {
+  const SubdivisionLattice lattice = test::pyramid_on_cube();
+  const Volume asked = freeze_adaptive(lattice, {.tolerance = 1e-3});
+  EXPECT_EQ(asked.freeze_error(), 0);
+  const Volume reached = freeze_adaptive(lattice, {.tolerance = 1e-3, .most_weights = 2000});
+  EXPECT_LT(reached.n_patches(), asked.n_patches());
+  EXPECT_LT(reached.stencils().n_weights(), 20000u);
+  EXPECT_GT(reached.freeze_error(), 2e-3);
+  EXPECT_LT(reached.freeze_error(), 0.3);
+}
+
 TEST(FreezeAdaptive, refuses_options_out_of_range) {
   const SubdivisionLattice box = test::lattice_from(make_box({1, 1, 1}, {0, 0, 0}, {1, 1, 1}));
   EXPECT_THROW((void)freeze_adaptive(box, {.tolerance = 0}), ParameterError);

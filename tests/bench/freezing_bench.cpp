@@ -1,22 +1,24 @@
-/// How large and how exact frozen volumes are: patches, bytes and errors of adaptive volumes by
-/// tolerance, and of uniform refinement by level.
-///
-/// usage: freeze_bench [levels of uniform refinement, 5]
+// How large and how exact frozen volumes are: patches, bytes and errors of adaptive volumes by
+// tolerance, and of uniform refinement by level.
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
+#include <string>
+#include <vector>
 
 #include "lattice/build/primitives.h"
 #include "lattice/subdivision/freeze.h"
+#include "tests/bench/sections.h"
 #include "tests/bench/timing.h"
 #include "tests/support/accuracy.h"
 #include "tests/support/families.h"
 #include "tests/support/places.h"
 
-namespace espalier {
+namespace espalier::bench {
 namespace {
+
+constexpr int kMostLevels = 5;  // of uniform refinement
 
 /// A lattice, its motion of about half a cell a coordinate, and where that takes points in truth.
 struct Case {
@@ -46,16 +48,16 @@ std::size_t n_leaves(const Volume& volume) {
   return n;
 }
 
-double print_row(const std::string& how, const Case& one, const Volume& volume, double seconds) {
+double print_row(const std::string& how, const Case& one, const Volume& volume, double time) {
   const test::Difference error = one.error(volume);
   const double relative = error.position / volume.diagonal();
   fmt::print("  {:<16} {:>9} {:>8} {:>9} {:>11} {:>9.1e} {:>9.1e} {:>8.3f}\n", how,
              volume.n_patches(), n_leaves(volume), volume.n_points(), volume.bytes(), relative,
-             error.gradient, seconds);
+             error.gradient, time);
   return relative;
 }
 
-void bench(const Case& one, int most_levels) {
+void bench_case(const Case& one, int most_levels) {
   fmt::print("{}, {} cells\n  {:<16} {:>9} {:>8} {:>9} {:>11} {:>9} {:>9} {:>8}\n", one.name,
              one.lattice.complex->n_cells(), "", "patches", "leaves", "points", "bytes", "x'",
              "dx'/dx", "seconds");
@@ -64,9 +66,9 @@ void bench(const Case& one, int most_levels) {
   for (int digits = 3; digits <= 9; ++digits) {
     const double tolerance = std::pow(10.0, -digits);
     Volume volume;
-    const double seconds =
-        bench::seconds([&] { volume = freeze_adaptive(one.lattice, {.tolerance = tolerance}); }, 1);
-    const double error = print_row(fmt::format("1e-{}", digits), one, volume, seconds);
+    const double time =
+        seconds([&] { volume = freeze_adaptive(one.lattice, {.tolerance = tolerance}); }, 1);
+    const double error = print_row(fmt::format("1e-{}", digits), one, volume, time);
     if (digits == 5) {
       wanted = error;
       wanted_bytes = static_cast<double>(volume.bytes());
@@ -74,39 +76,25 @@ void bench(const Case& one, int most_levels) {
   }
   for (int level = 2; level <= most_levels; ++level) {
     Volume volume;
-    const double seconds = bench::seconds([&] { volume = freeze_uniform(one.lattice, level); }, 1);
-    const double error = print_row(fmt::format("uniform {}", level), one, volume, seconds);
+    const double time = seconds([&] { volume = freeze_uniform(one.lattice, level); }, 1);
+    const double error = print_row(fmt::format("uniform {}", level), one, volume, time);
     const double more_levels = std::log(error / wanted) / std::log(4.0);
-    bench::print("bytes of uniform refinement with the error at 1e-5, to its own",
-                 static_cast<double>(volume.bytes()) * std::pow(8.0, more_levels) / wanted_bytes,
-                 "times");
+    print("bytes of uniform refinement with the error at 1e-5, to its own",
+          static_cast<double>(volume.bytes()) * std::pow(8.0, more_levels) / wanted_bytes, "times");
   }
 }
 
-int run(int argc, char** argv) {
-  const int most_levels = argc > 1 ? std::atoi(argv[1]) : 5;
-  if (most_levels < 1 || most_levels > 6) {
-    fmt::print(stderr, "freeze_bench: uniform levels are {}, must be 1 to 6\n", most_levels);
-    return 2;
-  }
+}  // namespace
+
+void bench_freezing() {
   set_thread_count(1);
   CylinderOptions cylinder;
   cylinder.sectors = 5;
   cylinder.layers = 3;
-  bench(Case("cylinder of 5 sectors", test::lattice_from(make_cylinder(cylinder)), 0.3),
-        most_levels);
-  bench(Case("O-grid limb", test::prism(test::o_grid_section(), 10), 1), 0);
-  return 0;
+  bench_case(Case("cylinder of 5 sectors", test::lattice_from(make_cylinder(cylinder)), 0.3),
+             kMostLevels);
+  bench_case(Case("O-grid limb", test::prism(test::o_grid_section(), 10), 1), 0);
+  set_thread_count(0);
 }
 
-}  // namespace
-}  // namespace espalier
-
-int main(int argc, char** argv) {
-  try {
-    return espalier::run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "freeze_bench: {}\n", error.what());
-    return 1;
-  }
-}
+}  // namespace espalier::bench

@@ -1,24 +1,27 @@
-/// How fast points are found in volumes, beside evaluating them, and how exactly: round trips of
-/// random points of every lattice family.
-///
-/// usage: embed_bench [points a family for the round trips, 100000; 0: none]
+// How fast points are found in volumes, beside evaluating them, and how exactly: round trips of
+// random points of every lattice family.
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <array>
 #include <glm/geometric.hpp>
 #include <random>
+#include <string>
+#include <vector>
 
+#include "deform/embed/embed.h"
+#include "deform/evaluate/displace.h"
 #include "lattice/build/primitives.h"
 #include "lattice/subdivision/freeze.h"
 #include "lattice/volume/point_locator.h"
+#include "tests/bench/sections.h"
 #include "tests/bench/timing.h"
 #include "tests/support/families.h"
 #include "tests/support/places.h"
 #include "tests/support/spline_volume.h"
 
-namespace espalier {
+namespace espalier::bench {
 namespace {
 
 /// Points of a volume patch by patch, as evaluation wants them, in random order.
@@ -36,16 +39,16 @@ std::vector<glm::dvec3> random_points(const Volume& volume, std::size_t n) {
 void bench_speed(const std::string& name, const Volume& volume) {
   constexpr std::size_t kPoints = 100000;
   const std::vector<glm::dvec3> points = random_points(volume, kPoints);
-  const double preparing = bench::seconds([&] { const PointLocator locator(volume); });
+  const double preparing = seconds([&] { const PointLocator locator(volume); });
   const PointLocator locator(volume);
   std::vector<Location> found;
-  const double locating = bench::seconds([&] { found = locator.locate(points); });
+  const double locating = seconds([&] { found = locator.locate(points); });
   std::vector<BezierPatch> patches;
   for (std::size_t i = 0; i < volume.n_patches(); ++i) {
     patches.push_back(volume.bezier(i, volume.rest_points()));
   }
   glm::dvec3 sum(0);
-  const double evaluating = bench::seconds([&] {
+  const double evaluating = seconds([&] {
     for (const Location& location : found) {
       glm::dvec3 value;
       glm::dmat3 derivative;
@@ -54,10 +57,10 @@ void bench_speed(const std::string& name, const Volume& volume) {
     }
   });
   fmt::print("{}: {} patches (sum {:.3g})\n", name, volume.n_patches(), sum.x);
-  bench::print("prepare, microseconds a patch",
-               preparing / static_cast<double>(volume.n_patches()) * 1e6, "µs");
-  bench::print("find, nanoseconds a point", locating / kPoints * 1e9, "ns");
-  bench::print("find, to evaluating value and derivative there", locating / evaluating, "times");
+  print("prepare, microseconds a patch", preparing / static_cast<double>(volume.n_patches()) * 1e6,
+        "µs");
+  print("find, nanoseconds a point", locating / kPoints * 1e9, "ns");
+  print("find, to evaluating value and derivative there", locating / evaluating, "times");
 }
 
 void bench_round_trips(const std::string& name, const Volume& volume, std::size_t n) {
@@ -86,12 +89,42 @@ void bench_round_trips(const std::string& name, const Volume& volume, std::size_
              *std::max_element(n_steps.begin(), n_steps.end()));
 }
 
-int run(int argc, char** argv) {
-  const int n = argc > 1 ? std::atoi(argv[1]) : 100000;
-  if (n < 0) {
-    fmt::print(stderr, "embed_bench: the number of points is {}, must be 0 or more\n", n);
-    return 2;
+void bench_deform() {
+  const SubdivisionLattice lattice = test::lattice_from(make_box({6, 6, 6}, {0, 0, 0}, {1, 1, 1}));
+  const Volume volume = freeze_uniform(lattice, 3);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(0.01, 0.99);
+  std::vector<glm::dvec3> points(100000);
+  for (glm::dvec3& point : points) {
+    point = {place(random), place(random), place(random)};
   }
+  fmt::print("{} points in {} patches\n", points.size(), volume.n_patches());
+  std::vector<glm::dvec3> pose = lattice.rest;
+  for (glm::dvec3& point : pose) {
+    point += 0.1 * point * point;
+  }
+  const std::vector<glm::dvec3> displacements = volume.displacements(pose);
+  const auto n = static_cast<double>(points.size());
+  for (const int threads : {1, 0}) {
+    set_thread_count(threads);
+    const std::string with =
+        threads == 1 ? ", one thread" : fmt::format(", {} threads", thread_count());
+    Binding binding;
+    const double embedding = seconds([&] { binding = embed(volume, points); });
+    std::vector<glm::dvec3> moved;
+    const double displacing =
+        seconds([&] { moved = displaced_points(volume, binding, points, displacements); }, 10);
+    print("embed, microseconds a point" + with, embedding / n * 1e6, "µs");
+    print("embed, to displacing the points" + with, embedding / displacing, "times");
+    const std::size_t bytes = points.size() * (3 * sizeof(glm::dvec3) + 2 * sizeof(std::int32_t));
+    print("displace, to copying points, places and result" + with, displacing / copy_seconds(bytes),
+          "copies");
+  }
+}
+
+}  // namespace
+
+void bench_embedding() {
   set_thread_count(1);
   constexpr std::array<int, 3> kIntervals = {6, 6, 6};
   const auto warped = [&](const std::array<int, 3>& intervals, double noise) {
@@ -104,26 +137,15 @@ int run(int argc, char** argv) {
               freeze_uniform(test::lattice_from(make_box({6, 6, 6}, {0, 0, 0}, {1, 1, 1})), 2));
   bench_speed("O-grid limb", freeze_adaptive(test::prism(test::o_grid_section(), 10)));
   bench_speed("cylinder of wedges", freeze_adaptive(test::lattice_from(make_cylinder({}))));
-  if (n > 0) {
-    fmt::print(
-        "round trips of {} points a family\n  {:<34} {:>8} {:>8} {:>12} {:>10} {:>6} {:>6}\n", n,
-        "", "patches", "missed", "unconverged", "residual", "median", "most");
-    for (const test::NamedLattice& family : test::lattice_families()) {
-      bench_round_trips(family.name, freeze_adaptive(family.lattice, {.tolerance = 1e-4}),
-                        static_cast<std::size_t>(n));
-    }
+  bench_deform();
+  set_thread_count(1);
+  constexpr std::size_t kPoints = 20000;
+  fmt::print("round trips of {} points a family\n  {:<34} {:>8} {:>8} {:>12} {:>10} {:>6} {:>6}\n",
+             kPoints, "", "patches", "missed", "unconverged", "residual", "median", "most");
+  for (const test::NamedLattice& family : test::lattice_families()) {
+    bench_round_trips(family.name, freeze_adaptive(family.lattice, {.tolerance = 1e-4}), kPoints);
   }
-  return 0;
+  set_thread_count(0);
 }
 
-}  // namespace
-}  // namespace espalier
-
-int main(int argc, char** argv) {
-  try {
-    return espalier::run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "embed_bench: {}\n", error.what());
-    return 1;
-  }
-}
+}  // namespace espalier::bench

@@ -1,0 +1,144 @@
+/// Operations on a lattice's points, and what they do to models.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "deform/scene/operations.h"
+#include "lattice/core/error.h"
+#include "lattice/topology/defect.h"
+#include "lattice/topology/validate.h"
+
+namespace espalier {
+namespace {
+
+using Type = ParameterType;
+
+/// Where the listed points go: #indices.
+std::vector<glm::dvec3> targets(const Arguments& arguments, std::span<const glm::dvec3> points,
+                                std::span<const std::int64_t> indices) {
+  if (arguments.has("to") == arguments.has("by")) {
+    throw ParameterError("needs 'to', positions, or 'by', a vector: one of them");
+  }
+  std::vector<glm::dvec3> result;
+  if (arguments.has("by")) {
+    const glm::dvec3 by = arguments.vector("by");
+    for (const std::int64_t i : indices) {
+      result.push_back(points[static_cast<std::size_t>(i)] + by);
+    }
+    return result;
+  }
+  const std::vector<double> xyz = arguments.numbers("to");
+  if (xyz.size() != 3 * indices.size()) {
+    throw ParameterError("'to' has " + std::to_string(xyz.size()) +
+                         " numbers, must have three for "
+                         "each of " +
+                         std::to_string(indices.size()) + " points");
+  }
+  for (std::size_t i = 0; i < xyz.size(); i += 3) {
+    result.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
+  }
+  return result;
+}
+
+/// The points with those that the arguments name moved.
+std::vector<glm::dvec3> moved_points(const Arguments& arguments,
+                                     std::span<const glm::dvec3> points) {
+  const std::vector<std::int64_t> indices = arguments.integers("points");
+  for (const std::int64_t i : indices) {
+    if (i < 0 || static_cast<std::size_t>(i) >= points.size()) {
+      throw ParameterError("'points' has " + std::to_string(i) + ", must be from 0 to " +
+                           std::to_string(points.size() - 1));
+    }
+  }
+  const std::vector<glm::dvec3> to = targets(arguments, points, indices);
+  std::vector<glm::dvec3> moved(points.begin(), points.end());
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    moved[static_cast<std::size_t>(indices[i])] = to[i];
+  }
+  return moved;
+}
+
+/// A lattice at rest that moves must be a valid one where it goes; a pose may fold.
+Scene move_points(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  const std::string& name = arguments.text("lattice");
+  const SubdivisionLattice& lattice = lattice_in(scene, name);
+  if (arguments.text("shape") == "pose") {
+    return with_pose(scene, name, moved_points(arguments, lattice.posed_points()));
+  }
+  SubdivisionLattice moved = lattice;
+  moved.rest = moved_points(arguments, lattice.rest);
+  throw_if_defective(find_geometric_defects(*moved.complex, moved.rest, progress));
+  return with_lattice(scene, name, std::move(moved));
+}
+
+Scene set_pose(const Scene& scene, const Arguments& arguments, const Progress& /*progress*/) {
+  const std::string& name = arguments.text("lattice");
+  return with_pose(scene, name,
+                   arguments.has("pose") ? pose_in(scene, arguments.text("pose")).points
+                                         : std::vector<glm::dvec3>());
+}
+
+/// Every lattice that a model is bound to moves it; the scene keeps the model at rest.
+Scene save_deformed(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  static const std::string kResult = "deformed model";
+  const std::string& model = arguments.text("model");
+  std::vector<std::string> lattices;
+  for (const auto& [key, bound] : scene.bound) {
+    if (key.first == model) {
+      lattices.push_back(key.second);
+    }
+  }
+  if (lattices.empty()) {
+    throw ParameterError(model + " is not bound to a lattice: nothing deforms it");
+  }
+  const BoundModel& bound = scene.bound.at({model, lattices.front()});
+  const Scene deformed = apply(operation_named("deform"), scene,
+                               Arguments({{"model", model},
+                                          {"lattice", lattices},
+                                          {"freeze", bound.freeze},
+                                          {"outside", bound.outside},
+                                          {"output", kResult}}),
+                               progress);
+  static_cast<void>(apply(operation_named("save"), deformed,
+                          Arguments({{"name", kResult}, {"path", arguments.text("path")}}),
+                          progress));
+  return scene;
+}
+
+}  // namespace
+
+std::vector<Operation> pose_operations() {
+  const Parameter lattice = {
+      .name = "lattice", .type = Type::Lattice, .help = "the lattice", .is_required = true};
+  return {
+      {"move points",
+       "Move points of a lattice, of its pose or at rest",
+       {lattice,
+        {.name = "points",
+         .type = Type::Integers,
+         .help = "which, from 0",
+         .is_required = true,
+         .count = 0},
+        {.name = "to", .type = Type::Numbers, .help = "x y z for each of them", .count = 0},
+        {.name = "by", .type = Type::Numbers, .help = "instead: dx dy dz for all", .count = 3},
+        {.name = "shape",
+         .type = Type::Choice,
+         .help = "of the pose, or of the lattice at rest, which unties its models (default pose)",
+         .choices = {"pose", "rest"},
+         .fallback = Value(std::string("pose"))}},
+       move_points},
+      {"set pose",
+       "Bring a lattice back to rest, or into a pose",
+       {lattice, {.name = "pose", .type = Type::Pose, .help = "the pose (default: at rest)"}},
+       set_pose},
+      {"save deformed",
+       "Write a model as the lattices it is bound to deform it",
+       {{.name = "model", .type = Type::Model, .help = "the model", .is_required = true},
+        {.name = "path", .type = Type::Path, .help = "the file", .is_required = true}},
+       save_deformed,
+       false},
+  };
+}
+
+}  // namespace espalier

@@ -1,0 +1,18 @@
+#pragma once
+
+/// The sections of espalier_bench: each prints its tables.
+
+namespace espalier::bench {
+
+/// Building and refining complexes, to sorting and copying.
+void bench_topology();
+/// Finding points in volumes, to evaluating them, and round trips.
+void bench_embedding();
+/// Patches, bytes and errors of frozen volumes.
+void bench_freezing();
+/// Evaluating bound points, with the mark of each line.
+void bench_evaluation();
+/// Moving the vertices of refined lattices with their control points, with the mark of each line.
+void bench_reposing();
+
+}  // namespace espalier::bench

@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include "deform/model/model_file.h"
+#include "deform/scene/bind.h"
+#include "deform/scene/operation_text.h"
+#include "lattice/core/error.h"
+#include "lattice/core/file.h"
+#include "tests/support/families.h"
+
+namespace espalier {
+namespace {
+
+/// A model "m" in a lattice "box" of eight cells from 0 to 2.
+Scene bound_scene() {
+  Scene scene = with_model({}, "m", parse_model(ModelFormat::Obj, "m.obj", "v 1 1 1\n"));
+  scene = with_lattice(std::move(scene), "box", test::prism(test::grid_section(2, 2), 2));
+  return with_bound(scene, "m", "box", {});
+}
+
+Scene done(const Scene& scene, const std::string& line) {
+  return apply(parse_call(line), scene);
+}
+
+std::string refusal(const std::string& line) {
+  try {
+    (void)done(bound_scene(), line);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(PoseOperations, move_points_moves_these_and_no_others_and_keeps_what_is_bound) {
+  const Scene before = bound_scene();
+  const Scene after = done(before, "move points lattice=box points=3,0 to=7,8,9,-1,-2,-3");
+  std::vector<glm::dvec3> expected = lattice_in(before, "box").rest;
+  expected[3] = {7, 8, 9};
+  expected[0] = {-1, -2, -3};
+  EXPECT_EQ(lattice_in(after, "box").pose, expected);
+  EXPECT_EQ(lattice_in(after, "box").rest, lattice_in(before, "box").rest);
+  EXPECT_EQ(after.bound.at({"m", "box"}).binding, before.bound.at({"m", "box"}).binding);
+  const Scene further = done(after, "move points lattice=box points=3 by=1,0,-1");
+  EXPECT_EQ(lattice_in(further, "box").pose[3], glm::dvec3(8, 8, 8));
+}
+
+TEST(PoseOperations, moving_points_at_rest_unties_the_models_and_refuses_an_invalid_lattice) {
+  const Scene after = done(bound_scene(), "move points lattice=box points=0 by=-1,0,0 shape=rest");
+  EXPECT_EQ(lattice_in(after, "box").rest[0], glm::dvec3(-1, 0, 0));
+  EXPECT_TRUE(after.bound.empty());
+  EXPECT_NE(refusal("move points lattice=box points=0 by=9,0,0 shape=rest"), "no error");
+}
+
+TEST(PoseOperations, set_pose_goes_back_to_rest) {
+  const Scene posed = done(bound_scene(), "move points lattice=box points=0 by=1,1,1");
+  EXPECT_TRUE(lattice_in(done(posed, "set pose lattice=box"), "box").pose.empty());
+}
+
+TEST(PoseOperations, save_deformed_writes_what_the_bound_lattices_do_and_leaves_the_scene) {
+  std::string all = "0";
+  for (int i = 1; i < 27; ++i) {
+    all += "," + std::to_string(i);
+  }
+  const Scene posed = done(bound_scene(), "move points lattice=box points=" + all + " by=0,0,2");
+  const std::string path = ::testing::TempDir() + "/espalier_save_deformed.obj";
+  const Scene after = done(posed, "save deformed model=m path=" + path);
+  EXPECT_EQ(read_file(path), "v 1 1 3\n");
+  EXPECT_EQ(after.models.size(), 1u);
+  EXPECT_EQ(model_in(after, "m").bytes(), "v 1 1 1\n");
+}
+
+TEST(PoseOperations, name_what_they_refuse) {
+  EXPECT_EQ(refusal("move points lattice=box points=27 by=0,0,0"),
+            "'points' has 27, must be from 0 to 26");
+  EXPECT_EQ(refusal("move points lattice=box points=-1 by=0,0,0"),
+            "'points' has -1, must be from 0 to 26");
+  EXPECT_EQ(refusal("move points lattice=box points=0"),
+            "needs 'to', positions, or 'by', a vector: one of them");
+  EXPECT_EQ(refusal("move points lattice=box points=0,1 to=1,2,3"),
+            "'to' has 3 numbers, must have three for each of 2 points");
+  EXPECT_EQ(refusal("move points lattice=box points=5 by=1e300,0,0"),
+            "point 5 of box would be too far away, or nowhere");
+  EXPECT_EQ(refusal("set pose lattice=box pose=none"), "the scene has no pose named 'none'");
+  EXPECT_EQ(refusal("save deformed model=none path=x.obj"),
+            "none is not bound to a lattice: nothing deforms it");
+}
+
+}  // namespace
+}  // namespace espalier

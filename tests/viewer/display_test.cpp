@@ -1,0 +1,87 @@
+#include "viewer/app/display.h"
+
+#include <gtest/gtest.h>
+
+#include "lattice/core/file.h"
+#include "viewer/render/null_renderer.h"
+
+namespace espalier::viewer {
+namespace {
+
+/// Two triangles far apart in a bar of eight cells along x; bound, in Pose mode.
+class DisplayTest : public ::testing::Test {
+ protected:
+  DisplayTest() {
+    const std::string path = ::testing::TempDir() + "/espalier_display.obj";
+    write_file(path,
+               "v .2 .2 .5\nv .4 .2 .5\nv .2 .4 .5\nv 7.5 .2 .5\nv 7.7 .2 .5\nv 7.5 .4 .5\n"
+               "f 1 2 3\nf 4 5 6\n");
+    session_.open(path);
+    session_.apply({"new box", Arguments({{"cells", std::vector<std::int64_t>{8, 1, 1}},
+                                          {"max", std::vector<double>{8, 1, 1}},
+                                          {"output", std::string("bar")}})});
+    session_.frame_all();
+    session_.bind();
+    session_.set_mode(Mode::Pose);
+    display_.update(session_);
+  }
+
+  [[nodiscard]] const TriangleMesh& mesh() const {
+    for (const auto& [id, content] : renderer_.items()) {
+      if (const auto* found = std::get_if<TriangleMesh>(&content)) {
+        return *found;
+      }
+    }
+    throw std::runtime_error("no mesh");
+  }
+
+  NullRenderer renderer_;
+  Display display_{renderer_};
+  Session session_;
+};
+
+TEST_F(DisplayTest, uploads_nothing_while_nothing_changes) {
+  const std::size_t before = renderer_.n_uploaded();
+  display_.update(session_);
+  EXPECT_EQ(renderer_.n_uploaded(), before);
+}
+
+TEST_F(DisplayTest, a_model_follows_its_lattice_and_only_what_moved_is_uploaded) {
+  const std::vector<glm::vec3> at_rest = mesh().positions;
+  const std::size_t before = renderer_.n_uploaded();
+  // The end of the bar, far from the first triangle: vertex 8 is at x = 8.
+  session_.apply({"move points", Arguments({{"lattice", std::string("bar")},
+                                            {"points", std::vector<std::int64_t>{8}},
+                                            {"by", std::vector<double>{0, 0.5, 0}}})});
+  display_.update(session_);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(mesh().positions[i], at_rest[i]);
+    EXPECT_GT(mesh().positions[i + 3].y, at_rest[i + 3].y);
+  }
+  const SubdivisionLattice& bar = lattice_in(session_.scene(), "bar");
+  const std::size_t n_lattice = 2 * bar.complex->n_edges() + bar.rest.size();
+  EXPECT_LE(renderer_.n_uploaded() - before, n_lattice + 3 + 3);
+}
+
+TEST_F(DisplayTest, undo_removes_what_is_gone) {
+  for (int i = 0; i < 5; ++i) {
+    session_.undo();
+  }
+  display_.update(session_);
+  EXPECT_TRUE(renderer_.items().empty());
+}
+
+TEST_F(DisplayTest, bind_mode_shows_what_the_lattice_holds) {
+  const std::size_t before = renderer_.items().size();
+  session_.set_mode(Mode::Bind);
+  display_.update(session_);
+  ASSERT_EQ(renderer_.items().size(), before + 1);
+  const auto& dots = std::get<PointSet>(renderer_.items().rbegin()->second);
+  EXPECT_EQ(dots.points.size(), 6u);
+  for (const glm::vec3& color : dots.colors) {
+    EXPECT_GT(color.g, color.r);
+  }
+}
+
+}  // namespace
+}  // namespace espalier::viewer

@@ -1,0 +1,81 @@
+#include "viewer/app/headless.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "lattice/core/error.h"
+#include "lattice/core/file.h"
+
+namespace espalier::viewer {
+namespace {
+
+constexpr const char* kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+
+class HeadlessTest : public ::testing::Test {
+ protected:
+  HeadlessTest() {
+    std::string name = (std::filesystem::temp_directory_path() / "espalier.XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+    write_file(path("square.obj"), kSquare);
+  }
+  ~HeadlessTest() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  [[nodiscard]] Picture run(const std::string& script) const {
+    return run_headless({{path("square.obj")}, script, "test.script", 800, 600});
+  }
+  /// Clay is redder than it is blue, and light; panels and background are grey and dark.
+  static bool is_clay(const Picture& picture, int x, int y) {
+    const auto pixel = picture.at(x, y);
+    return pixel[0] > pixel[2] + 30 && pixel[0] > 100;
+  }
+
+  std::string folder_;
+};
+
+TEST_F(HeadlessTest, shows_the_model_between_the_panels) {
+  const Picture picture = run("key kp1");
+  EXPECT_TRUE(is_clay(picture, 400, 300));
+  EXPECT_FALSE(is_clay(picture, 400, 590));
+  const auto panel = picture.at(14, 200);
+  const auto background = picture.at(300, 8);
+  EXPECT_LT(panel[1], 50);
+  EXPECT_GT(background[1], panel[1] + 10);
+}
+
+TEST_F(HeadlessTest, a_script_builds_binds_bends_and_saves) {
+  const Picture picture =
+      run("# the square goes to the right by its width\n"
+          "key n b kp1 ctrl+3 a g x 1 enter\n"
+          "key ctrl+s");
+  EXPECT_EQ(read_file(path("square_bent.obj")), "v 1 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nf 1 2 3 4\n");
+  EXPECT_FALSE(is_clay(picture, 300, 300));
+  EXPECT_TRUE(is_clay(picture, 790, 250) || is_clay(picture, 790, 350));
+}
+
+TEST_F(HeadlessTest, a_file_is_opened_by_typing_its_path_into_the_panel) {
+  const Picture picture =
+      run_headless({{},
+                    "key f2\ntype " + path("square.obj") + "\nkey enter\nkey n kp1 home ctrl+s",
+                    "s",
+                    800,
+                    600});
+  EXPECT_TRUE(is_clay(picture, 400, 300));
+  EXPECT_TRUE(std::filesystem::exists(path("lattice_bent.json")));
+}
+
+TEST_F(HeadlessTest, an_error_names_the_line_of_the_script) {
+  try {
+    (void)run("key kp1\nopen path=nothing.obj");
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("test.script:2: open: nothing.obj: "))
+        << error.what();
+  }
+  EXPECT_THROW((void)run("fly"), FileError);
+  EXPECT_THROW((void)run_headless({{path("none.obj")}, "", "s", 80, 60}), Error);
+}
+
+}  // namespace
+}  // namespace espalier::viewer

@@ -1,0 +1,71 @@
+#!/bin/sh
+# Opens a model in the viewer, extrudes a lattice twice, binds, poses, saves and quits, with real
+# keys and buttons: session_test.sh ESPALIER-VIEWER, on a display of its own.
+set -eu
+viewer=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+export XDG_STATE_HOME="$folder/state"
+
+cat >"$folder/model.obj" <<'END'
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+f 4 3 2 1
+f 5 6 7 8
+f 1 2 6 5
+f 3 4 8 7
+END
+
+"$viewer" --size 1280x800 &
+process=$!
+xdotool search --sync --onlyvisible --name '^Espalier$' windowfocus >/dev/null
+
+# Types a path into the file panel.
+xdotool key F2
+sleep 0.5
+xdotool type --delay 60 "$folder/model.obj"
+xdotool key --delay 100 Return
+
+keys() {
+  sleep 0.3
+  xdotool key --delay 120 "$@"
+}
+keys n KP_1 Home 3
+xdotool mousemove 640 400 click 1
+keys e 1 Return
+keys e 1 Return
+keys b ctrl+3 1 a
+keys g x 1 period 5 Return
+keys ctrl+s
+sleep 0.5
+keys ctrl+q
+
+for i in $(seq 100); do
+  kill -0 "$process" 2>/dev/null || break
+  sleep 0.1
+done
+wait "$process"
+
+fail() {
+  echo "session_test.sh: $1" >&2
+  exit 1
+}
+sed -e 's/^v 0 /v 1.5 /' -e 's/^v 1 /v 2.5 /' "$folder/model.obj" >"$folder/expected.obj"
+cmp "$folder/expected.obj" "$folder/model_bent.obj" || fail "the model is not moved by 1.5 along x"
+python3 - "$folder/lattice_bent.json" <<'END' || fail "the lattice is not what was built"
+import json, sys
+lattice = json.load(open(sys.argv[1]))
+assert len(lattice["cells"]) == 3, lattice["cells"]
+assert len(lattice["vertices"]) == 16
+assert all(abs(p[0] - v[0] - 1.5) < 1e-12 and p[1:] == v[1:]
+           for v, p in zip(lattice["vertices"], lattice["pose"]))
+depths = sorted({round(v[2], 9) for v in lattice["vertices"]})
+assert len(depths) == 4 and abs(depths[3] - depths[1] - 2) < 1e-9, depths
+END
+[ ! -e "$XDG_STATE_HOME/espalier/journal" ] || fail "the recovery file is still there"

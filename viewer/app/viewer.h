@@ -1,0 +1,42 @@
+#pragma once
+
+/// The program but for what it is drawn on.
+
+#include <memory>
+#include <string>
+
+#include "viewer/app/display.h"
+#include "viewer/app/gui.h"
+#include "viewer/interact/session.h"
+#include "viewer/panels/panels.h"
+
+namespace espalier::viewer {
+
+/// Session, renderer and panels of one picture. Needs a current OpenGL context, which must outlive
+/// it.
+class Viewer {
+ public:
+  /// progress: asked by long tasks.
+  explicit Viewer(Progress progress = {});
+
+  void handle(const Event& event);
+  void open(const std::string& path);
+  /// Draws into the current frame buffer. seconds: since the last frame.
+  void draw(double seconds);
+  /// As draw(), while a task is under way.
+  void draw_task(std::string_view task, double fraction);
+  /// Asks about unsaved changes, if there are any.
+  void ask_to_quit();
+  [[nodiscard]] bool may_quit() const { return state_.quits; }
+
+  [[nodiscard]] Session& session() { return session_; }
+
+ private:
+  std::unique_ptr<Renderer> renderer_;
+  Session session_;
+  Display display_;
+  Gui gui_;
+  PanelState state_;
+};
+
+}  // namespace espalier::viewer

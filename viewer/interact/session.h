@@ -1,0 +1,149 @@
+#pragma once
+
+/// A user at work: mouse and keys in, operations of the scene out.
+
+#include <functional>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "viewer/interact/event.h"
+#include "viewer/interact/journal.h"
+#include "viewer/interact/lattice_elements.h"
+#include "viewer/interact/transform.h"
+#include "viewer/interact/view.h"
+
+namespace espalier::viewer {
+
+/// The job's three parts: shape the lattice at rest, tie models to it, move its control points.
+enum class Mode { Lattice, Bind, Pose };
+
+/// A rectangle being drawn, pixels.
+struct Rubber {
+  glm::dvec2 from{0.0};
+  glm::dvec2 to{0.0};
+};
+
+/// What a user sees and changes, without any window. Errors become messages.
+class Session {
+ public:
+  /// progress: asked by every operation.
+  explicit Session(Progress progress = {}) : progress_(std::move(progress)) {}
+
+  void handle(const Event& event);
+  /// Does an operation, as an entry of the journal. False if it failed: the last message says why.
+  bool apply(const OperationCall& call);
+  /// Opens a model or lattice; the first ones decide where the camera stands.
+  bool open(const std::string& path);
+  /// Does the operation that a line of a journal holds.
+  bool run_line(const std::string& line);
+  /// Replays a journal's text on top of what is there.
+  bool recover(const std::string& journal_text);
+
+  // What a panel's buttons and keys do.
+  void set_mode(Mode mode);
+  void set_element_kind(ElementKind kind);
+  void choose_lattice(const std::string& name);
+  void begin_transform(TransformKind kind);
+  /// Grows cells from the selected faces, or from those all of whose vertices are selected.
+  void begin_extrusion();
+  void select_all(bool is_selected);
+  void select_connected();
+  void invert_selection();
+  void toggle_soft();
+  void toggle_through() { is_through_ = !is_through_; }
+  /// A lattice of one cell round all models, lattice.json beside the first one.
+  void new_box();
+  /// Ties every model to the chosen lattice.
+  void bind();
+  /// The chosen lattice back at rest.
+  void rest();
+  /// Writes every bound model, bent, and the chosen lattice with its pose beside their files, as
+  /// NAME_bent.EXTENSION.
+  void save();
+  void undo();
+  void redo();
+  void frame_all();
+  void frame_selected();
+  void look_from(const std::string& view_name);
+  void toggle_projection();
+  void say(const std::string& message) { messages_.push_back(message); }
+  void forget_messages() { messages_.clear(); }
+
+  [[nodiscard]] const Journal& journal() const { return journal_; }
+  [[nodiscard]] const Scene& scene() const { return journal_.scene(); }
+  [[nodiscard]] Mode mode() const { return mode_; }
+  [[nodiscard]] ElementKind element_kind() const { return kind_; }
+  [[nodiscard]] const View& view() const { return view_; }
+  [[nodiscard]] const std::string& lattice() const { return lattice_; }  ///< "": none
+  [[nodiscard]] const LatticeElements& elements() const { return elements_; }
+  [[nodiscard]] const Selection& selection() const { return selection_; }
+  [[nodiscard]] Selection selected_vertices() const {
+    return elements_.vertices(kind_, selection_);
+  }
+  [[nodiscard]] Shape shape() const { return mode_ == Mode::Pose ? Shape::Pose : Shape::Rest; }
+  /// The chosen lattice's points as they are on the screen, a transform in progress included.
+  [[nodiscard]] std::vector<glm::dvec3> shown_points() const;
+  [[nodiscard]] const std::optional<Transform>& transform() const { return transform_; }
+  /// While faces are extruded: the edges of the cells to come, two points each, model units.
+  [[nodiscard]] std::vector<glm::dvec3> ghost() const;
+  [[nodiscard]] const std::optional<Rubber>& rubber() const { return rubber_; }
+  [[nodiscard]] bool is_soft() const { return is_soft_; }
+  [[nodiscard]] bool is_through() const { return is_through_; }
+  [[nodiscard]] const std::vector<std::string>& messages() const { return messages_; }
+  /// What is going on, in one line.
+  [[nodiscard]] std::string status() const;
+
+ private:
+  enum class Drag { None, Orbit, Pan, Zoom, Select };
+
+  void on(const KeyPress& key);
+  void on(const MousePress& press);
+  void on(const MouseRelease& release);
+  void on(const MouseMove& move);
+  void on(const Scroll& scroll);
+  void on(const TextInput& /*text*/) {}
+  void on(const Resize& size);
+  bool on_transform_key(const std::string& chord);
+  void finish_transform();
+  void finish_extrusion();
+  void click(const glm::dvec2& at);
+  void click_loop(const glm::dvec2& at);
+  void select_box(const Rubber& box);
+  void scene_changed();
+  [[nodiscard]] double soft_radius() const { return is_soft_ ? soft_radius_ : 0; }
+
+  Progress progress_;
+  Journal journal_;
+  Mode mode_ = Mode::Lattice;
+  ElementKind kind_ = ElementKind::Vertex;
+  View view_;
+  std::string lattice_;
+  LatticeElements elements_;
+  std::shared_ptr<const SubdivisionLattice> elements_source_;
+  Selection selection_;
+  std::optional<Transform> transform_;
+  std::optional<Rubber> rubber_;
+  Drag drag_ = Drag::None;
+  Modifiers held_;
+  glm::dvec2 mouse_{0.0};
+  bool is_soft_ = false;
+  double soft_radius_ = 0;
+  bool is_through_ = true;
+  std::vector<std::string> messages_;
+};
+
+/// A thing a key, the help and the command palette know.
+struct Command {
+  std::string name;
+  std::string keys;  ///< chords, separated by blanks; empty: none
+  std::function<void(Session&)> run;
+};
+
+/// All commands of a session, in the order in which help lists them.
+[[nodiscard]] const std::vector<Command>& commands();
+
+}  // namespace espalier::viewer

@@ -1,0 +1,45 @@
+#pragma once
+
+/// What stands round the picture: state in, actions out. Made between Gui::begin() and end().
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "viewer/interact/session.h"
+
+namespace espalier::viewer {
+
+/// What a panel wants done once all panels are made.
+using Action = std::function<void(Session&)>;
+
+/// What panels remember between frames.
+struct PanelState {
+  bool shows_help = false;
+  bool shows_palette = false;
+  bool shows_files = false;
+  bool asks_to_quit = false;  ///< there are unsaved changes
+  bool quits = false;         ///< set once the program may end
+  std::array<char, 1024> path{};
+  std::array<char, 128> search{};
+  std::vector<std::string> recent;  ///< files, the last one first
+  double frame_seconds = 0;
+};
+
+/// All of them.
+[[nodiscard]] std::vector<Action> draw_panels(const Session& session, PanelState& state);
+
+// One by one; each adds its actions.
+void draw_tool_panel(const Session& session, std::vector<Action>& actions);
+void draw_object_panel(const Session& session, std::vector<Action>& actions);
+void draw_message_panel(const Session& session, std::vector<Action>& actions);
+void draw_status_line(const Session& session, const PanelState& state);
+void draw_help(PanelState& state);
+void draw_palette(PanelState& state, std::vector<Action>& actions);
+void draw_file_panel(const Session& session, PanelState& state, std::vector<Action>& actions);
+void draw_quit_question(PanelState& state, std::vector<Action>& actions);
+/// While a task runs: how far it is, and how to stop it.
+void draw_progress(std::string_view task, double fraction);
+
+}  // namespace espalier::viewer

@@ -1,0 +1,157 @@
+/// The panels that are always there.
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "viewer/panels/fixed_panel.h"
+#include "viewer/panels/panels.h"
+
+namespace espalier::viewer {
+namespace {
+
+std::string file_name(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+/// A button that shows whether it is on.
+bool choice(const char* label, bool is_on, float width) {
+  if (is_on) {
+    ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.72F, 0.47F, 0.10F, 1));
+  }
+  const bool is_pressed = ImGui::Button(label, ImVec2(width, 0));
+  if (is_on) {
+    ImGui::PopStyleColor();
+  }
+  return is_pressed;
+}
+
+/// A button for a command of the table, with its key beside it.
+void command_button(const char* label, const char* chord, float width,
+                    std::vector<Action>& actions) {
+  if (ImGui::Button(label, ImVec2(width, 0))) {
+    for (const Command& command : commands()) {
+      if (command.keys == chord) {
+        actions.emplace_back(command.run);
+      }
+    }
+  }
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("key: %s", chord);
+  }
+}
+
+/// What to do next.
+const char* advice(const Session& session) {
+  const bool is_bound =
+      std::any_of(session.scene().bound.begin(), session.scene().bound.end(),
+                  [&](const auto& entry) { return entry.first.second == session.lattice(); });
+  switch (session.mode()) {
+    case Mode::Lattice:
+      return "Shape the lattice round the part that is to bend.";
+    case Mode::Bind:
+      return is_bound ? "Bound. Green points are inside and will follow."
+                      : "Press Bind: it finds the points that the lattice holds.";
+    default:
+      return is_bound ? "Move control points: the models follow."
+                      : "Nothing is bound to this lattice yet: press b.";
+  }
+}
+
+void draw_kinds(const Session& session, float width, std::vector<Action>& actions) {
+  constexpr std::array<const char*, 4> kKinds = {"Vertex", "Edge", "Face", "Cell"};
+  for (int i = 0; i < 4; ++i) {
+    const auto kind = static_cast<ElementKind>(i);
+    if (choice(kKinds.at(static_cast<std::size_t>(i)), session.element_kind() == kind, width)) {
+      actions.emplace_back([kind](Session& target) { target.set_element_kind(kind); });
+    }
+    if (i % 2 == 0) {
+      ImGui::SameLine();
+    }
+  }
+}
+
+}  // namespace
+
+void draw_tool_panel(const Session& session, std::vector<Action>& actions) {
+  ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin));
+  ImGui::SetNextWindowSize(ImVec2(kWidth, 0));
+  ImGui::Begin("tools", nullptr, kFixed);
+  const float full = ImGui::GetContentRegionAvail().x;
+  const float half = (full - ImGui::GetStyle().ItemSpacing.x) / 2;
+  constexpr std::array<const char*, 3> kModes = {"1  Lattice", "2  Bind", "3  Pose"};
+  for (int i = 0; i < 3; ++i) {
+    const auto mode = static_cast<Mode>(i);
+    if (choice(kModes.at(static_cast<std::size_t>(i)), session.mode() == mode, full)) {
+      actions.emplace_back([mode](Session& target) { target.set_mode(mode); });
+    }
+  }
+  ImGui::PushStyleColor(ImGuiCol_Text, kFaint);
+  ImGui::TextWrapped("%s", advice(session));
+  ImGui::PopStyleColor();
+  ImGui::Separator();
+  if (session.mode() == Mode::Bind) {
+    command_button("Bind  (b)", "b", full, actions);
+  } else {
+    draw_kinds(session, half, actions);
+    command_button("Move  (g)", "g", half, actions);
+    ImGui::SameLine();
+    command_button("Turn  (r)", "r", half, actions);
+    command_button("Scale  (s)", "s", half, actions);
+    ImGui::SameLine();
+    if (session.mode() == Mode::Lattice) {
+      command_button("Extrude (e)", "e", half, actions);
+      command_button("New box  (n)", "n", full, actions);
+    } else {
+      command_button("At rest", "alt+g", half, actions);
+    }
+    bool is_soft = session.is_soft();
+    if (ImGui::Checkbox("Soft selection  (o)", &is_soft)) {
+      actions.emplace_back([](Session& target) { target.toggle_soft(); });
+    }
+    bool is_visible_only = !session.is_through();
+    if (ImGui::Checkbox("Only what is visible", &is_visible_only)) {
+      actions.emplace_back([](Session& target) { target.toggle_through(); });
+    }
+  }
+  ImGui::Separator();
+  command_button("Undo", "ctrl+z", half, actions);
+  ImGui::SameLine();
+  command_button("Save", "ctrl+s", half, actions);
+  ImGui::End();
+}
+
+void draw_object_panel(const Session& session, std::vector<Action>& actions) {
+  const Scene& scene = session.scene();
+  if (scene.models.empty() && scene.lattices.empty()) {
+    return;
+  }
+  const float right = ImGui::GetIO().DisplaySize.x - kMargin;
+  ImGui::SetNextWindowPos(ImVec2(right, kMargin), ImGuiCond_Always, ImVec2(1, 0));
+  ImGui::SetNextWindowSize(ImVec2(kWidth + 40, 0));
+  ImGui::Begin("objects", nullptr, kFixed);
+  for (const auto& [name, model] : scene.models) {
+    ImGui::TextUnformatted(file_name(name).c_str());
+    ImGui::TextColored(kFaint, "  %zu points, %zu faces", model.points().size(),
+                       model.faces().n_rows());
+    for (const auto& [names, bound] : scene.bound) {
+      if (names.first == name) {
+        const StatusCounts counts = bound.binding->counts();
+        ImGui::TextColored(kFaint, "  %zu inside, %zu outside", counts.inside + counts.border,
+                           counts.outside + counts.unconverged);
+      }
+    }
+  }
+  for (const auto& [name, lattice] : scene.lattices) {
+    if (ImGui::Selectable(file_name(name).c_str(), name == session.lattice())) {
+      actions.emplace_back([chosen = name](Session& target) { target.choose_lattice(chosen); });
+    }
+    ImGui::TextColored(kFaint, "  %zu cells, %zu vertices", lattice->complex->n_cells(),
+                       lattice->complex->n_vertices());
+  }
+  ImGui::End();
+}
+
+}  // namespace espalier::viewer

@@ -1,0 +1,64 @@
+/// The panels that tell what is going on.
+
+#include <algorithm>
+#include <cstdio>
+
+#include "viewer/panels/fixed_panel.h"
+#include "viewer/panels/panels.h"
+
+namespace espalier::viewer {
+
+void draw_message_panel(const Session& session, std::vector<Action>& actions) {
+  if (session.messages().empty()) {
+    return;
+  }
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(size.x / 2, size.y - 44), ImGuiCond_Always, ImVec2(0.5F, 1));
+  ImGui::SetNextWindowSize(ImVec2(std::min(720.0F, size.x - 2 * kMargin), 0));
+  ImGui::Begin("messages", nullptr, kFixed);
+  const std::size_t n = session.messages().size();
+  for (std::size_t i = n > 4 ? n - 4 : 0; i < n; ++i) {
+    ImGui::TextWrapped("%s", session.messages()[i].c_str());
+  }
+  if (ImGui::SmallButton("Copy")) {
+    std::string all;
+    for (const std::string& message : session.messages()) {
+      all += message + "\n";
+    }
+    ImGui::SetClipboardText(all.c_str());
+  }
+  ImGui::SameLine();
+  if (ImGui::SmallButton("Close")) {
+    actions.emplace_back([](Session& target) { target.forget_messages(); });
+  }
+  ImGui::End();
+}
+
+void draw_status_line(const Session& session, const PanelState& state) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(0, size.y), ImGuiCond_Always, ImVec2(0, 1));
+  ImGui::SetNextWindowSize(ImVec2(size.x, 34));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
+  ImGui::Begin("status", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
+  ImGui::TextUnformatted(session.status().c_str());
+  if (state.frame_seconds > 0) {
+    char time[32];
+    std::snprintf(time, sizeof time, "%.1f ms", 1e3 * state.frame_seconds);
+    ImGui::SameLine(size.x - ImGui::CalcTextSize(time).x - 12);
+    ImGui::TextColored(kFaint, "%s", time);
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+void draw_progress(std::string_view task, double fraction) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(size.x / 2, size.y / 2), ImGuiCond_Always, ImVec2(0.5F, 0.5F));
+  ImGui::SetNextWindowSize(ImVec2(360, 0));
+  ImGui::Begin("progress", nullptr, kFixed);
+  ImGui::Text("%s   (Esc: stop)", std::string(task).c_str());
+  ImGui::ProgressBar(static_cast<float>(fraction));
+  ImGui::End();
+}
+
+}  // namespace espalier::viewer
