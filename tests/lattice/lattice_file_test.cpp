@@ -10,6 +10,8 @@
 
 #include "lattice/core/error.h"
 #include "lattice/core/file.h"
+#include "lattice/io/json_lattice.h"
+#include "lattice/io/ovm_reader.h"
 #include "lattice/topology/validate.h"
 #include "tests/lattice/shapes.h"
 
@@ -37,9 +39,27 @@ class LatticeFile : public ::testing::Test {
 
   /// The message that reading `text` ends with, without the file's name; empty if it is valid.
   std::string error_of(const std::string& name, const std::string& text) const {
-    const std::string file = write(name, text);
+    return error_of_reading(write(name, text),
+                            [](const std::string& file) { (void)read_lattice(file); });
+  }
+
+  /// The same without a file: as read_lattice() does once it has read one.
+  std::string error_of_text(const std::string& name, const std::string& text) const {
+    return error_of_reading(path(name),
+                            [&](const std::string& file) { (void)lattice_from_text(file, text); });
+  }
+
+  static SubdivisionLattice lattice_from_text(const std::string& file, const std::string& text) {
+    return build_lattice(
+        file.ends_with(".ovm") ? parse_ovm(file, text) : parse_json_lattice(file, text), file);
+  }
+
+ private:
+  /// read: called with `file`.
+  template <class Read>
+  static std::string error_of_reading(const std::string& file, const Read& read) {
     try {
-      (void)read_lattice(file);
+      read(file);
     } catch (const Error& error) {
       const std::string what = error.what();
       EXPECT_EQ(what.find(file), 0u) << what;
@@ -50,7 +70,6 @@ class LatticeFile : public ::testing::Test {
     return "";
   }
 
- private:
   std::filesystem::path folder_;
 };
 
@@ -428,7 +447,7 @@ TEST_F(LatticeFile, survives_truncation_at_every_byte) {
     const std::string whole = read_file(path(name));
     std::size_t n_valid = 0;
     for (std::size_t n = 0; n < whole.size(); ++n) {
-      n_valid += error_of(name, whole.substr(0, n)).empty();
+      n_valid += error_of_text(name, whole.substr(0, n)).empty();
     }
     if (std::string(name) == "a.json") {
       EXPECT_EQ(n_valid, 1u) << "but for its last line end a JSON file is needed whole";
@@ -461,8 +480,8 @@ TEST_F(LatticeFile, survives_random_bytes) {
             text.insert(at, 1, alphabet[random() % alphabet.size()]);
         }
       }
-      if (error_of(name, text).empty()) {
-        const SubdivisionLattice read = read_lattice(path(name));
+      if (error_of_text(name, text).empty()) {
+        const SubdivisionLattice read = lattice_from_text(path(name), text);
         EXPECT_TRUE(validate(read.complex->polyhedra(), read.rest).empty());
       }
     }
