@@ -45,12 +45,13 @@ std::vector<glm::dvec3> read_points(const std::string& path,
 std::string evaluated_points(const Lattice& lattice, const Arguments& arguments,
                              const Session& session) {
   const std::vector<glm::dvec3> points = read_points(arguments.text("at"), {"x", "y", "z"});
-  const std::vector<glm::dvec3> pose = posed_controls(arguments.text("lattice"), lattice);
+  const ControlPose pose = own_pose(lattice);
   const Volume volume = freeze(lattice, arguments.text("freeze"), session.progress);
   const Binding binding = embed(volume, points, session.progress);
-  const auto displacements = volume.displacements(pose);
-  const auto moved = displaced_points(volume, binding, points, displacements);
-  const auto gradients = deformation_gradients(volume, binding, displacements);
+  const auto displacements = volume.displacements(pose.points);
+  const auto weights = point_weights(volume, pose.weights);
+  const auto moved = displaced_points(volume, binding, points, displacements, weights);
+  const auto gradients = deformation_gradients(volume, binding, displacements, weights);
   std::string text = kHeader;
   for (std::size_t i = 0; i < points.size(); ++i) {
     add_row(moved[i], binding.status[i], gradients[i], text);

@@ -44,10 +44,10 @@ NormalMode normal_mode(const std::string& word) {
 }
 
 /// The control points that the i-th lattice of the arguments takes.
-std::vector<glm::dvec3> pose_of(const Scene& scene, const Arguments& arguments, std::size_t i) {
+ControlPose pose_of(const Scene& scene, const Arguments& arguments, std::size_t i) {
   const std::string lattice = arguments.texts("lattice")[i];
   return arguments.has("pose") ? pose_for(scene, lattice, arguments.texts("pose")[i])
-                               : posed_controls(lattice, lattice_in(scene, lattice));
+                               : own_pose(lattice_in(scene, lattice));
 }
 
 /// An option that goes with each lattice must be given as often as they are, or not at all.
@@ -120,14 +120,16 @@ LatticeAction act(Scene& scene, const Arguments& arguments, std::size_t i,
                   const Influence& influence, const Progress& progress) {
   const std::string& model = arguments.text("model");
   const std::string lattice = arguments.texts("lattice")[i];
-  std::vector<glm::dvec3> pose = pose_of(scene, arguments, i);
+  ControlPose asked = pose_of(scene, arguments, i);
   scene = bound_by(scene, arguments, i, progress);
   scene = with_lock(scene, model, lattice, lock_of(arguments, i));
   const auto bound = [&]() -> const BoundModel& { return scene.bound.at({model, lattice}); };
   const Volume& volume = *bound().volume;
   const std::span<const glm::dvec3> rest = volume.rest_controls();
-  pose = locked_pose(std::move(pose), rest, bound().lock);
-  LatticeAction action{{bound().volume, bound().binding, volume.displacements(pose)}, {}};
+  const std::vector<glm::dvec3> pose = locked_pose(std::move(asked.points), rest, bound().lock);
+  LatticeAction action{{bound().volume, bound().binding, volume.displacements(pose),
+                        point_weights(volume, asked.weights)},
+                       {}};
   const bool is_at_rest = std::ranges::equal(pose, rest);
   if (bound().outside == "keep" && !is_at_rest && bound().binding->counts().outside > 0) {
     scene = with_crossings(scene, model, lattice);

@@ -60,10 +60,6 @@ struct Comparison {
                          lattice_name));
       }
     }
-    if (!std::ranges::equal(lattice.weights, pose.posed_weights())) {
-      fail("its weights are not those of the lattice " + lattice_name +
-           ": a model follows control points only");
-    }
   }
 
   void operator()(const ThbLattice& lattice, const ThbLattice& pose) const {
@@ -103,6 +99,13 @@ struct Comparison {
   }
 };
 
+/// The weights of a pose, if they are not those at rest.
+std::vector<double> changed_weights(const TensorLattice& rest, const TensorLattice& pose) {
+  const std::span<const double> posed = pose.posed_weights();
+  return std::ranges::equal(rest.weights, posed) ? std::vector<double>()
+                                                 : std::vector<double>(posed.begin(), posed.end());
+}
+
 std::vector<glm::dvec3> points_of(std::span<const glm::dvec3> points) {
   return {points.begin(), points.end()};
 }
@@ -128,23 +131,32 @@ Pose read_pose(const std::string& path) {
   return pose;
 }
 
-std::vector<glm::dvec3> posed_controls(const std::string& name, const Lattice& lattice) {
+ControlPose own_pose(const Lattice& lattice) {
   const auto* tensor = lattice.as<TensorLattice>();
-  if (tensor != nullptr && !std::ranges::equal(tensor->weights, tensor->posed_weights())) {
-    throw LatticeError(name +
-                       ": its pose_weights are not its weights at rest: a model follows control "
-                       "points only");
-  }
-  return points_of(lattice.posed_points());
+  return {points_of(lattice.posed_points()),
+          tensor == nullptr ? std::vector<double>() : changed_weights(*tensor, *tensor)};
 }
 
-std::vector<glm::dvec3> pose_for(const Scene& scene, const std::string& lattice,
-                                 const std::string& pose) {
+std::vector<glm::dvec3> posed_controls(const std::string& name, const Lattice& lattice) {
+  ControlPose pose = own_pose(lattice);
+  if (!pose.weights.empty()) {
+    throw LatticeError(name +
+                       ": its pose_weights are not its weights at rest, which is for deform "
+                       "and eval only");
+  }
+  return std::move(pose.points);
+}
+
+ControlPose pose_for(const Scene& scene, const std::string& lattice, const std::string& pose) {
   const Pose& found = pose_in(scene, pose);
-  lattice_in(scene, lattice).visit([&](const auto& rest) {
+  const Lattice& at_rest = lattice_in(scene, lattice);
+  at_rest.visit([&](const auto& rest) {
     std::visit([&](const auto& posed) { Comparison{lattice, pose}(rest, posed); }, found.lattice);
   });
-  return found.points;
+  const auto* rest = at_rest.as<TensorLattice>();
+  const auto* posed = std::get_if<TensorLattice>(&found.lattice);
+  return {found.points, rest != nullptr && posed != nullptr ? changed_weights(*rest, *posed)
+                                                            : std::vector<double>()};
 }
 
 }  // namespace espalier

@@ -423,13 +423,13 @@ Volume freeze(const TensorLattice& lattice) {
   return {std::move(tables), lattice.rest};
 }
 
-std::vector<double> posed_point_weights(const TensorLattice& lattice, const Volume& volume) {
-  std::vector<double> weights;
-  for (std::size_t i = 0; i < volume.n_points() && !lattice.pose_weights.empty(); ++i) {
+std::vector<double> point_weights(const Volume& volume, std::span<const double> weights) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < volume.n_points() && !weights.empty(); ++i) {
     const std::int32_t control = volume.stencils()[i].indices.front();
-    weights.push_back(lattice.pose_weights[static_cast<std::size_t>(control)]);
+    result.push_back(weights[static_cast<std::size_t>(control)]);
   }
-  return weights;
+  return result;
 }
 
 PatchPlace place_of(const TensorLattice& lattice, const glm::dvec3& uvw) {

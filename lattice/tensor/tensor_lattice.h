@@ -84,10 +84,10 @@ void require_valid(const TensorLattice& lattice);
 /// themselves. Throws as require_valid(). O(#patches · block).
 [[nodiscard]] Volume freeze(const TensorLattice& lattice);
 
-/// The pose's weights as the points of the frozen volume have them; empty
-/// if the pose has none of its own. volume: what the lattice froze into.
-[[nodiscard]] std::vector<double> posed_point_weights(const TensorLattice& lattice,
-                                                      const Volume& volume);
+/// Weights of control points as the points of the frozen volume have them. volume: what a tensor
+/// lattice froze into; weights: #controls, or empty: then so is the result.
+[[nodiscard]] std::vector<double> point_weights(const Volume& volume,
+                                                std::span<const double> weights);
 
 /// A place by patch.
 struct PatchPlace {

@@ -69,7 +69,7 @@ TEST(PoseWeights, turn_a_circle_s_arc_into_the_exact_conic) {
       ring.pose_weights[i] = weight;
     }
     const auto moved = displaced_points(volume, binding, points, volume.displacements(ring.rest),
-                                        posed_point_weights(ring, volume));
+                                        point_weights(volume, ring.pose_weights));
     for (const glm::dvec3& point : moved) {
       // a, b, c of a + b + c = 1 over the arc's control points; the conic is b² = 4 w² a c.
       const double b = (point.x + point.y) / 1.5 - 1;
@@ -87,7 +87,7 @@ TEST(PoseWeights, move_points_to_where_the_posed_volume_has_them) {
   const Volume volume = freeze(lattice);
   const auto points = random_points(0.2, 0.8, 50);
   const Binding binding = embed(volume, points);
-  const auto weights = posed_point_weights(lattice, volume);
+  const auto weights = point_weights(volume, lattice.pose_weights);
   const auto moved =
       displaced_points(volume, binding, points, volume.displacements(lattice.pose), weights);
   BezierPatch posed;
@@ -104,7 +104,7 @@ TEST(PoseWeights, have_gradients_that_are_difference_quotients_inside_and_in_the
   constexpr double kStep = 1e-5;
   const TensorLattice lattice = posed_block();
   const Volume volume = freeze(lattice);
-  const auto weights = posed_point_weights(lattice, volume);
+  const auto weights = point_weights(volume, lattice.pose_weights);
   const auto displacements = volume.displacements(lattice.pose);
   auto points = random_points(0.2, 0.8, 12);
   points.emplace_back(0.4, 0.3, 1.1);
@@ -151,7 +151,7 @@ TEST(PoseWeights, combine_with_strengths) {
   const auto volume = std::make_shared<const Volume>(freeze(lattice));
   const auto points = random_points(0.2, 0.8, 10);
   const auto binding = std::make_shared<const Binding>(embed(*volume, points));
-  const auto weights = posed_point_weights(lattice, *volume);
+  const auto weights = point_weights(*volume, lattice.pose_weights);
   const auto moves = volume->displacements(lattice.pose);
   const std::vector<LatticeMotion> motions = {{volume, binding, moves, weights}};
   const auto whole = displaced_points(*volume, *binding, points, moves, weights);
@@ -173,7 +173,7 @@ TEST(PoseWeights, that_alone_change_are_written_by_the_next_frame) {
   const auto points = random_points(0.2, 0.8, 30);
   const Binding binding = embed(volume, points);
   const Evaluator<double> evaluator(volume, {binding.patches, binding.uvw, {}});
-  const auto weights = posed_point_weights(lattice, volume);
+  const auto weights = point_weights(volume, lattice.pose_weights);
   const auto moves = volume.displacements(lattice.pose);
   VolumeMotion<double> motion(moves);
   std::vector<glm::dvec3> frame(binding.points.size(), glm::dvec3(7));
@@ -202,7 +202,7 @@ TEST(PoseWeights, are_refused_where_they_make_no_sense) {
   const Volume volume = freeze(lattice);
   const Binding binding = embed(volume, std::vector{glm::dvec3(0.5)});
   const auto moves = volume.displacements(lattice.pose);
-  auto weights = posed_point_weights(lattice, volume);
+  auto weights = point_weights(volume, lattice.pose_weights);
   const auto refused = [&](const std::vector<double>& bad) {
     EXPECT_THROW((void)point_displacements(volume, binding, moves, bad), ParameterError);
   };

@@ -203,8 +203,31 @@ TEST_F(TensorCommands, eval_is_de_casteljau_with_the_weights_of_the_pose) {
                 radii[i], 1e-14);
     EXPECT_NEAR(std::strtod(rows[i + 1][2].c_str(), nullptr), heights[i], 1e-15);
   }
-  EXPECT_THAT(refusal({"deform", "cloud.obj", "--lattice", "arc.json", "-o", "out.obj"}, 1),
-              HasSubstr("pose_weights are not its weights at rest"));
+  // At rest the lattice is the unit cube: rest points are their own places.
+  write_file("at.csv", "x,y,z\n0,0,0\n0.2,0.5,0.5\n0.5,1,0\n0.85,0.25,1\n");
+  const auto moved = rows_of(done({"eval", "arc.json", "--at", "at.csv"}));
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      EXPECT_NEAR(std::strtod(moved[i + 1][column].c_str(), nullptr),
+                  std::strtod(rows[i + 1][column].c_str(), nullptr), 1e-14);
+    }
+  }
+  const Model cloud = read_model("cloud.obj");
+  const std::vector<glm::dvec3> points = deformed_points("arc.json");
+  std::size_t n_inside = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::dvec3 rest = cloud.points()[i];
+    if (rest == glm::clamp(rest, 0.0, 1.0)) {
+      EXPECT_NEAR(std::hypot(points[i].x, points[i].y), 1 + rest.z, 1e-6);
+      EXPECT_NEAR(points[i].z, rest.y, 1e-6);
+      ++n_inside;
+    }
+  }
+  EXPECT_GT(n_inside, 0u);
+  EXPECT_THAT(
+      refusal({"pull", "arc.json", "--model", "cloud.obj", "--pick", "0=1,1,1", "-o", "out.json"},
+              1),
+      HasSubstr("pose_weights are not its weights at rest"));
 }
 
 TEST_F(TensorCommands, new_fits_a_model_or_a_group_of_it) {
@@ -359,7 +382,9 @@ TEST_F(TensorCommands, a_pose_must_be_of_such_a_lattice) {
   EXPECT_EQ(refused("nurbs.json", "other.json"),
             "other.json: has control points 4 5 5, the lattice nurbs.json has 4 5 4");
   done({"new", "nurbs", "--counts", "4", "5", "4", "-o", "other.json"});
-  EXPECT_THAT(refused("nurbs.json", "other.json"), HasSubstr("its weights are not those"));
+  EXPECT_GT(farthest(deformed_points("nurbs.json", {"--pose", "other.json"}),
+                     deformed_points("nurbs.json")),
+            0.001);  // other weights are a pose too
   done(
       {"new", "bspline", "--counts", "5", "6", "4", "--degree", "2", "3", "1", "-o", "other.json"});
   EXPECT_EQ(refused("bspline.json", "other.json"),
