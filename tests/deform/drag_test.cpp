@@ -14,7 +14,7 @@
 #include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
 #include "lattice/subdivision/freeze.h"
-#include "tests/deform/allocations.h"
+#include "tests/support/allocations.h"
 #include "tests/support/families.h"
 #include "tests/support/spline_volume.h"
 

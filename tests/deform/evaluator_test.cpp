@@ -13,7 +13,7 @@
 #include "deform/evaluate/displace.h"
 #include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
-#include "tests/deform/allocations.h"
+#include "tests/support/allocations.h"
 #include "tests/support/families.h"
 #include "tests/support/spline_volume.h"
 

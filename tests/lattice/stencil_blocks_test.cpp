@@ -3,12 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <glm/common.hpp>
-#include <new>
 #include <random>
 #include <string>
 
@@ -16,27 +13,8 @@
 #include "lattice/core/parallel.h"
 #include "lattice/subdivision/freeze.h"
 #include "lattice/subdivision/refine.h"
+#include "tests/support/allocations.h"
 #include "tests/support/families.h"
-
-namespace {
-
-std::atomic<std::size_t> allocations = 0;
-
-}  // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace espalier {
 namespace {
@@ -161,9 +139,9 @@ TEST_P(StencilBlocksOnEverySet, allocate_nothing_when_they_are_applied) {
   const auto controls = some_points<float>(300);
   std::vector<glm::vec3> points(table.n_rows());
   blocks.apply(controls, points);  // the threads begin
-  const std::size_t before = allocations;
+  const std::size_t before = test::n_allocations();
   blocks.apply(controls, points);
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::n_allocations(), before);
 }
 
 TEST_P(StencilBlocksOnEverySet, may_be_empty) {
