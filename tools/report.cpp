@@ -329,6 +329,7 @@ void add_counts(const Scene& scene, Json& json, std::string& text) {
       counts["lock"] = lock_json(bound.lock);
     }
     counts["freeze_error"] = bound.volume->freeze_error();
+    counts["gradient_error"] = bound.volume->gradient_error();
     if (scene.bound.size() == 1) {
       json.update(counts);
     } else {

@@ -14,6 +14,7 @@
 
 #include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
+#include "lattice/core/streamed_copy.h"
 
 namespace espalier {
 namespace {
@@ -169,7 +170,7 @@ double Drag<Real>::safe_fraction(const glm::dvec3& displacement, double margin) 
   if (!has_folds_) {
     throw ParameterError("the drag was begun without a fold check");
   }
-  constexpr std::size_t kSegment = kMostBlocks * kDragFoldRows * kDragBlock;
+  constexpr std::size_t kSegment = kFoldBlocks * kDragFoldRows * kDragBlock;
   const std::size_t n_segments = (folds_.size() + kSegment - 1) / kSegment;
   thread_local std::vector<Real> falls;
   falls.resize(n_segments);
@@ -183,7 +184,7 @@ double Drag<Real>::safe_fraction(const glm::dvec3& displacement, double margin) 
       [&](std::size_t i) {
         segments[i] = kernels_->largest_fall(&folds_[i * kSegment], n_blocks(i), glm::value_ptr(d));
       },
-      kPointsPerThread / (kMostBlocks * kDragBlock));
+      kPointsPerThread / (kFoldBlocks * kDragBlock));
   const double rounding =
       8 * std::numeric_limits<Real>::epsilon() * steepest_ * glm::length(displacement);
   const double rounded =
@@ -212,7 +213,14 @@ DragStep Drag<Real>::update(const glm::dvec3& displacement, std::optional<double
   step.displacement = step.fraction * displacement;
   const glm::vec<3, Real> d(step.displacement);
   const std::size_t n_ranges = std::max<std::size_t>(1, n_points_ / kPointsPerThread);
-  const auto write_run = [&](std::size_t i) { write(runs_[i], glm::value_ptr(d), out); };
+  const bool streams = is_streamed(out);
+  const auto write_run = [&](std::size_t i) {
+    if (streams) {
+      write_streamed(runs_[i], glm::value_ptr(d), out);
+    } else {
+      write(runs_[i], glm::value_ptr(d), out);
+    }
+  };
   parallel_for(runs_.size(), write_run, runs_.size() / n_ranges + 1);
   if (!out.folded.empty()) {
     mark(step.displacement, out.folded);
@@ -241,6 +249,47 @@ void Drag<Real>::write(const Run& run, const Real* displacement,
   } else if (blocks.normals != nullptr) {
     kernels_->turn(blocks, displacement);
   }
+}
+
+template <class Real>
+bool Drag<Real>::is_streamed(const DraggedPoints<Real>& out) const {
+  const std::size_t n_reached =
+      runs_.empty() ? 0 : (runs_.back().first_block + runs_.back().n_blocks) * kDragBlock;
+  const std::size_t n_numbers =
+      (out.points.empty() ? 0 : kDragPlaceRows + 3) + (out.normals.empty() ? 0 : kDragTurnRows + 3);
+  return n_reached * n_numbers * sizeof(Real) > last_cache_bytes();
+}
+
+/// By way of the first cache, a few blocks at a time.
+template <class Real>
+void Drag<Real>::write_streamed(const Run& run, const Real* displacement,
+                                const DraggedPoints<Real>& out) const {
+  if (run.lanes != kAllLanes) {
+    write_part(run, displacement, out);
+    return;
+  }
+  constexpr std::uint32_t kBlocks = 16;
+  using Vector = glm::vec<3, Real>;
+  std::array<Vector, kBlocks * kDragBlock> points;
+  std::array<Vector, kBlocks * kDragBlock> normals;
+  const DraggedPoints<Real> here = {.points = out.points.empty() ? std::span<Vector>() : points,
+                                    .normals = out.normals.empty() ? std::span<Vector>() : normals};
+  for (std::uint32_t begin = 0; begin < run.n_blocks; begin += kBlocks) {
+    Run some = run;
+    some.first_block = run.first_block + begin;
+    some.n_blocks = std::min(kBlocks, run.n_blocks - begin);
+    some.first_point = 0;
+    write(some, displacement, here);
+    const std::size_t first = run.first_point + begin * kDragBlock;
+    const std::size_t n = 3 * some.n_blocks * kDragBlock;
+    if (!out.points.empty()) {
+      streamed_copy(glm::value_ptr(points[0]), n, numbers(out.points, first));
+    }
+    if (!out.normals.empty()) {
+      streamed_copy(glm::value_ptr(normals[0]), n, numbers(out.normals, first));
+    }
+  }
+  finish_streaming();
 }
 
 /// By way of memory on the stack.

@@ -79,7 +79,8 @@ class Drag {
     glm::dvec3 slope{0};
   };
   static constexpr std::uint16_t kAllLanes = 0xFFFF;
-  static constexpr std::uint32_t kMostBlocks = 256;  // a run, and a segment of the fold check
+  static constexpr std::uint32_t kMostBlocks = 256;  // a run
+  static constexpr std::uint32_t kFoldBlocks = 64;   // that are looked at again where they stop it
 
   void add_runs(std::span<const char> is_reached);
   void fill_places(const DragStart& start, const DragField& field, double unit);
@@ -90,6 +91,10 @@ class Drag {
   template <class Visit>
   void for_each_reached(std::size_t n_rows, const Visit& visit) const;
   void write(const Run& run, const Real* displacement, const DraggedPoints<Real>& out) const;
+  void write_streamed(const Run& run, const Real* displacement,
+                      const DraggedPoints<Real>& out) const;
+  /// Whether an update reads and writes more than the caches hold.
+  [[nodiscard]] bool is_streamed(const DraggedPoints<Real>& out) const;
   void write_part(const Run& run, const Real* displacement, const DraggedPoints<Real>& out) const;
   void mark(const glm::dvec3& displacement, std::span<std::uint8_t> folded) const;
   void require_possible(const DraggedPoints<Real>& out) const;

@@ -7,6 +7,7 @@
 #include "deform/evaluate/general_patch.h"
 #include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
+#include "lattice/core/streamed_copy.h"
 
 namespace espalier {
 namespace {
@@ -32,7 +33,7 @@ Real* at(Real* array, std::size_t offset) {
 }
 
 template <class Real>
-const Real* begin_of(const std::vector<Real>& blocks, std::size_t n_rows, std::size_t block) {
+const Real* begin_of(const AlignedVector<Real>& blocks, std::size_t n_rows, std::size_t block) {
   return blocks.empty() ? nullptr : &blocks[block * n_rows * kBlock];
 }
 
@@ -46,6 +47,27 @@ void scatter(const Real* from, std::size_t n, std::span<const std::uint32_t> tar
   }
 }
 
+/// Writes `n` numbers each of `n_points` points that follow each other past the caches.
+template <class Real>
+void stream(const Real* from, std::size_t n, std::size_t first, std::size_t n_points, Real* to) {
+  if (to != nullptr) {
+    streamed_copy(from, n * n_points, to + n * first);
+  }
+}
+
+/// Whether a frame of all points reads and writes more than the caches hold.
+template <class Real>
+bool is_streamed(const Targets<Real>& targets, const PointRuns<Real>& runs) {
+  const auto written = [](const Real* array, std::size_t n) { return array != nullptr ? n : 0; };
+  const std::size_t n_written = written(targets.points, 3) + written(targets.gradients, 9) +
+                                written(targets.determinants, 1) + written(targets.normals, 3) +
+                                written(targets.tangents, 3);
+  const std::size_t n_read = runs.places.size() + (targets.want_frames() ? runs.slopes.size() : 0) +
+                             (targets.normals != nullptr ? runs.normals.size() : 0) +
+                             (targets.tangents != nullptr ? runs.tangents.size() : 0);
+  return (n_read + n_written * runs.n_points) * sizeof(Real) > last_cache_bytes();
+}
+
 /// One frame's work on runs.
 template <class Real>
 class Frame {
@@ -57,7 +79,8 @@ class Frame {
         runs_(runs),
         motion_(motion),
         targets_(targets),
-        scope_(scope) {}
+        scope_(scope),
+        is_streamed_(is_streamed(targets, runs)) {}
 
   void evaluate_chunk(std::size_t chunk) const {
     for (std::uint32_t i = runs_.chunks[chunk]; i < runs_.chunks[chunk + 1]; ++i) {
@@ -65,6 +88,9 @@ class Frame {
       if (is_written(run)) {
         evaluate(run);
       }
+    }
+    if (is_streamed_) {
+      finish_streaming();
     }
   }
 
@@ -99,8 +125,8 @@ class Frame {
         (wanted.want_frames()
              ? kernels_.frames
              : kernels_.points)[axes[0]->degree - 1][axes[1]->degree - 1][axes[2]->degree - 1];
-    if (run.is_scattered) {
-      evaluate_scattered(run, wanted, powers, kernel);
+    if (run.is_scattered || is_streamed_) {
+      evaluate_in_parts(run, wanted, powers, kernel);
     } else {
       PatchPoints<Real> points = part(run, 0, run.n_points, offset(wanted, run.first_point));
       points.powers = powers;
@@ -119,10 +145,10 @@ class Frame {
                      points);
   }
 
-  /// By way of memory on the stack, a few blocks at a time.
-  void evaluate_scattered(const PointRun& run, const Targets<Real>& wanted, const Real* powers,
-                          typename EvaluationKernels<Real>::Evaluate kernel) const {
-    constexpr std::size_t kPart = 4 * kBlock;
+  /// By way of the first cache, a few blocks at a time.
+  void evaluate_in_parts(const PointRun& run, const Targets<Real>& wanted, const Real* powers,
+                         typename EvaluationKernels<Real>::Evaluate kernel) const {
+    constexpr std::size_t kPart = 16 * kBlock;
     Real points[3 * kPart];
     Real gradients[9 * kPart];
     Real determinants[kPart];
@@ -138,12 +164,18 @@ class Frame {
       PatchPoints<Real> some = part(run, begin, n, here);
       some.powers = powers;
       kernel(some);
-      const auto to = std::span(runs_.targets).subspan(run.first_target + begin, n);
-      scatter(points, 3, to, wanted.points);
-      scatter(gradients, 9, to, wanted.gradients);
-      scatter(determinants, 1, to, wanted.determinants);
-      scatter(normals, 3, to, wanted.normals);
-      scatter(tangents, 3, to, wanted.tangents);
+      const auto deliver = [&](const Real* from, std::size_t width, Real* to) {
+        if (run.is_scattered) {
+          scatter(from, width, std::span(runs_.targets).subspan(run.first_target + begin, n), to);
+        } else {
+          stream(from, width, run.first_point + begin, n, to);
+        }
+      };
+      deliver(points, 3, wanted.points);
+      deliver(gradients, 9, wanted.gradients);
+      deliver(determinants, 1, wanted.determinants);
+      deliver(normals, 3, wanted.normals);
+      deliver(tangents, 3, wanted.tangents);
     }
   }
 
@@ -176,6 +208,7 @@ class Frame {
   const VolumeMotion<Real>& motion_;
   const Targets<Real>& targets_;
   Scope scope_;
+  bool is_streamed_;
 };
 
 template <class Value, class Real>

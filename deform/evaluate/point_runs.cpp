@@ -166,7 +166,7 @@ glm::dmat3 rest_slopes(const Volume& volume, const BezierPatch& rest, const glm:
 
 /// Writes `row_values` as the column of a point in its block.
 template <class Real, std::size_t N>
-void put(std::vector<Real>& blocks, std::size_t first_block, std::size_t point,
+void put(AlignedVector<Real>& blocks, std::size_t first_block, std::size_t point,
          const std::array<double, N>& row_values) {
   Real* const block = &blocks[(first_block + point / kBlock) * N * kBlock];
   for (std::size_t row = 0; row < N; ++row) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "deform/evaluate/axis_polynomial.h"
+#include "lattice/core/cache_aligned.h"
 #include "lattice/volume/volume.h"
 
 namespace espalier {
@@ -51,10 +52,7 @@ struct PointRuns {
   std::vector<glm::dvec3> exact_uvw;  ///< of general runs and pyramids
   std::vector<AxisPolynomial<Real>> polynomials;
 
-  std::vector<Real> places;
-  std::vector<Real> slopes;
-  std::vector<Real> normals;
-  std::vector<Real> tangents;
+  AlignedVector<Real> places, slopes, normals, tangents;
 
   [[nodiscard]] std::size_t bytes() const;
 };

@@ -110,17 +110,26 @@ double reach_of(const std::string& option) {
                        "', must be keep, or falloff:DISTANCE with a distance above 0");
 }
 
+/// "TOLERANCE", or "TOLERANCE:GRADIENT_TOLERANCE". False for anything else.
+bool parse_tolerances(std::string_view text, AdaptiveOptions& options) {
+  const std::size_t colon = text.find(':');
+  const bool has_gradient = colon != std::string_view::npos;
+  double& tolerance = options.tolerance;
+  double& gradient = options.gradient_tolerance;
+  return parse_number(text.substr(0, colon), tolerance) && tolerance >= 1e-12 && tolerance <= 0.1 &&
+         (!has_gradient ||
+          (parse_number(text.substr(colon + 1), gradient) && gradient >= 1e-12 && gradient <= 1));
+}
+
 }  // namespace
 
 Volume freeze(const Lattice& lattice, const std::string& option, const Progress& progress) {
   const std::size_t colon = option.find(':');
-  const std::string mode = option.substr(0, colon);
-  const bool has_number = colon != std::string::npos;
-  const std::string_view number = has_number ? std::string_view(option).substr(colon + 1) : "";
+  const std::string_view mode = std::string_view(option).substr(0, colon);
+  const std::string_view number =
+      colon == std::string::npos ? "" : std::string_view(option).substr(colon + 1);
   FreezeOptions options;
-  double& tolerance = options.adaptive.tolerance;
-  if (mode == "adaptive" && (!has_number || (parse_number(number, tolerance) &&
-                                             tolerance >= 1e-12 && tolerance <= 0.1))) {
+  if (option == "adaptive" || (mode == "adaptive" && parse_tolerances(number, options.adaptive))) {
     return lattice.freeze(options, progress);
   }
   std::int64_t levels = 0;
@@ -128,9 +137,10 @@ Volume freeze(const Lattice& lattice, const std::string& option, const Progress&
     options.uniform_levels = static_cast<int>(levels);
     return lattice.freeze(options, progress);
   }
-  throw ParameterError("'freeze' is '" + option +
-                       "', must be adaptive, adaptive:TOLERANCE from 1e-12 to 0.1, or uniform:N "
-                       "with N from 1 to 8");
+  throw ParameterError(
+      "'freeze' is '" + option +
+      "', must be adaptive, adaptive:TOLERANCE from 1e-12 to 0.1, "
+      "adaptive:TOLERANCE:TOLERANCE_OF_DERIVATIVES, or uniform:N with N from 1 to 8");
 }
 
 Scene with_bound(const Scene& scene, const std::string& model, const std::string& lattice,

@@ -10,8 +10,9 @@
 
 namespace espalier {
 
-/// The volume of a lattice at rest. option: "adaptive", "adaptive:TOLERANCE" or "uniform:N", which
-/// says how subdivision lattices freeze; the other types freeze exactly. Throws ParameterError for
+/// The volume of a lattice at rest. option: "adaptive", "adaptive:TOLERANCE",
+/// "adaptive:TOLERANCE:TOLERANCE_OF_DERIVATIVES" (see AdaptiveOptions) or "uniform:N", which says
+/// how subdivision lattices freeze; the other types freeze exactly. Throws ParameterError for
 /// another one.
 [[nodiscard]] Volume freeze(const Lattice& lattice, const std::string& option,
                             const Progress& progress = {});

@@ -1,25 +1,28 @@
 #pragma once
 
 #include <cstddef>
-#include <new>
 #include <vector>
 
 namespace espalier {
 
-/// Memory that begins with a cache line, so that no vector of a row of numbers lies across two.
+/// Memory that begins with a cache line; where it is large, with a page of 2 MiB, and the system is
+/// asked for such pages, so that walks along it do not stop at every 4 KiB. Throws std::bad_alloc.
+[[nodiscard]] void* allocate_lines(std::size_t bytes);
+void free_lines(void* memory, std::size_t bytes);
+
+/// Memory of which no vector of a row of numbers lies across two cache lines.
 template <class T>
 struct CacheAligned {
   using value_type = T;
-  static constexpr std::align_val_t kLine{64};
 
   CacheAligned() = default;
   template <class U>
   explicit CacheAligned(const CacheAligned<U>& /*other*/) {}
 
   [[nodiscard]] T* allocate(std::size_t n) {
-    return static_cast<T*>(::operator new(n * sizeof(T), kLine));
+    return static_cast<T*>(allocate_lines(n * sizeof(T)));
   }
-  void deallocate(T* memory, std::size_t /*n*/) { ::operator delete(memory, kLine); }
+  void deallocate(T* memory, std::size_t n) { free_lines(memory, n * sizeof(T)); }
   bool operator==(const CacheAligned&) const = default;
 };
 

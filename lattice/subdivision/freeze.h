@@ -16,17 +16,24 @@ namespace espalier {
 [[nodiscard]] Volume freeze_uniform(const SubdivisionLattice& lattice, int levels,
                                     const Progress& progress = {});
 
-/// How exact an adaptive freeze is. Where points go, x', and jumps of it across the borders of
-/// patches are within the tolerance; ∂x'/∂x falls more slowly, by the root of it: its error and its
-/// jumps stay below 15 √tolerance round inner lines, up to the valence 8. Beside boundary vertices
-/// with many cells (three or more between smooth boundary faces) the subdivision surface's own
-/// derivative is not continuous and no tolerance makes the error small. With most_levels reached
-/// (with 8, about 2e-6 at nodes of hexahedra, 1e-5 at finite creases and 2e-5 in pyramids) x' is
-/// only as exact as these levels. The volume's boundary at leaves is as exact as x'.
+/// Without a gradient tolerance of its own, ∂x'/∂x is to be within this many tolerances.
+inline constexpr double kGradientToleranceFactor = 100;
+
+/// How exact an adaptive freeze is, leaves and jumps across the borders of patches included. Where
+/// points go, x', is within the tolerance; ∂x'/∂x, whose error falls more slowly, within the
+/// gradient tolerance along inner lines, and along smooth boundary lines of three cells. Leaves end
+/// where round-off of coordinates is as large: at about 1e-6 for the valence 5, 1e-4 for 8. Where
+/// more cells meet at a smooth boundary, in a fan, and at some nodes on the boundary, the
+/// subdivision surface's own derivative has no limit, and no tolerance makes the error small.
+/// With most_levels reached (with 8, about 2e-6 at nodes of hexahedra, 1e-5 at finite creases and
+/// 2e-5 in pyramids) x' is only as exact as these levels, and ∂x'/∂x, at inner nodes, to about
+/// 0.3 · 0.7^levels. The volume's boundary at leaves is as exact as x'.
 struct AdaptiveOptions {
   double tolerance = 1e-5;  ///< of positions, relative to the lattice's diagonal, for moves of
                             ///< about a cell; 1e-12 to 1e-1
-  int most_levels = 8;      ///< of refinement in all directions, 1 to 8
+  double gradient_tolerance = 0;  ///< of ∂x'/∂x for the same moves; 1e-12 to 1, or 0: a hundred
+                                  ///< times the tolerance
+  int most_levels = 8;            ///< of refinement in all directions, 1 to 8
   /// Refinement in all directions also ends before the stencils of a level may have more weights
   /// than this, of twelve bytes each: cells with many faces, whose points depend on every control
   /// point, would fill any memory.
@@ -37,7 +44,8 @@ struct AdaptiveOptions {
 /// bicubic × cubic patches, exactly but for small leaves at their extraordinary corners, isolated
 /// across the line only: patches grow linearly with −log(tolerance). Other cells are refined in all
 /// directions, as often as the tolerance asks, and most_levels and most_weights allow, down to
-/// trilinear patches and pyramids; Volume::freeze_error() tells if these miss the tolerance. Throws
+/// trilinear patches and pyramids; Volume::freeze_error() and gradient_error() tell what misses the
+/// tolerances. Throws
 /// ParameterError for options out of range. Tells `progress` "freeze".
 [[nodiscard]] Volume freeze_adaptive(const SubdivisionLattice& lattice,
                                      const AdaptiveOptions& options = {},

@@ -2,14 +2,15 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "lattice/core/box.h"
 #include "lattice/core/error.h"
 #include "lattice/subdivision/cell_class.h"
 #include "lattice/subdivision/freeze.h"
+#include "lattice/subdivision/isolation.h"
 #include "lattice/subdivision/refine.h"
 #include "lattice/subdivision/section.h"
 #include "lattice/subdivision/sub_complex.h"
@@ -19,23 +20,17 @@ namespace espalier {
 namespace {
 
 /// What a leaf's map misses of the true one in a cell of size 1, before any refinement: as measured
-/// on lines and at nodes of hexahedra, at creases of finite sharpness, in pyramids.
+/// at nodes of hexahedra, at creases of finite sharpness, in pyramids.
 constexpr double kLeafError = 0.1;
 constexpr double kCreaseLeafError = 0.4;
 constexpr double kPyramidLeafError = 1;
 constexpr double kRefinementRate = 0.25;
-constexpr int kMostIsolations = 60;
+/// What it misses of ∂x'/∂x at inner nodes, and how that falls a level.
+constexpr double kLeafGradientError = 0.3;
+constexpr double kGradientRefinementRate = 0.7;
 
-/// How a surface's error at a leaf falls a level: the square of the subdominant eigenvalue of
-/// Catmull-Clark subdivision at a vertex of valence n.
-double isolation_rate(double n) {
-  const double c = std::cos(2 * std::numbers::pi / n);
-  const double eigenvalue = (5 + c + std::cos(std::numbers::pi / n) * std::sqrt(2 * (9 + c))) / 16;
-  return eigenvalue * eigenvalue;
-}
-
-int levels_for(double tolerance, double leaf_error, double rate, int most) {
-  const double levels = std::ceil(std::log(tolerance / leaf_error) / std::log(rate));
+int levels_for(double tolerance, double leaf_error, int most) {
+  const double levels = levels_within(tolerance, leaf_error, kRefinementRate);
   return std::clamp(static_cast<int>(levels), 1, most);
 }
 
@@ -60,11 +55,11 @@ struct Stack {
 class LevelFreezer {
  public:
   LevelFreezer(const CellComplex& complex, const Sharpness& sharpness, Scheme scheme,
-               const AdaptiveOptions& options, VolumeBuilder& volume)
+               const LeafAccuracy& accuracy, VolumeBuilder& volume)
       : complex_(complex),
         sharpness_(sharpness),
         scheme_(scheme),
-        options_(options),
+        accuracy_(accuracy),
         volume_(volume),
         hexahedra_(complex),
         classifier_(hexahedra_, sharpness, scheme) {}
@@ -192,6 +187,17 @@ class LevelFreezer {
     return false;
   }
 
+  /// The line edge of a frame at corner i of its first face, in the order of that face's loop.
+  [[nodiscard]] EdgeId line_edge(const Frame& frame, std::size_t i) const {
+    const std::size_t c = std::array{0u, 1u, 3u, 2u}[i];
+    return complex_.find_edge(frame.corners[c], frame.corners[c + 4]);
+  }
+
+  /// Two or fewer cells at a boundary are regular: their rates are not used.
+  [[nodiscard]] IsolationRates rates_along(EdgeId line) const {
+    return isolation_rates(static_cast<int>(complex_.n_cells(line)), complex_.is_boundary(line));
+  }
+
   [[nodiscard]] Stack stack_of(const Frame& centre) const {
     Stack stack;
     stack.natural_begin = complex_.is_boundary(hexahedra_.side(centre, 2, 0).face());
@@ -225,13 +231,7 @@ class LevelFreezer {
       stack.faces.push_back(loop);
     }
     for (std::size_t i = 0; i < 4; ++i) {
-      const std::size_t c = std::array{0u, 1u, 3u, 2u}[i];
-      const EdgeId along = complex_.find_edge(centre.corners[c], centre.corners[c + 4]);
-      const auto n = static_cast<double>(complex_.n_cells(along));
-      // A boundary corner with n faces behaves like an inner one with 2n.
-      const double valence = complex_.is_boundary(along) ? 2 * n : n;
-      stack.levels[i] =
-          levels_for(options_.tolerance, kLeafError, isolation_rate(valence), kMostIsolations);
+      stack.levels[i] = isolation_levels(rates_along(line_edge(centre, i)), accuracy_);
     }
     return stack;
   }
@@ -276,8 +276,20 @@ class LevelFreezer {
     return points;
   }
 
+  /// Tells the volume where leaves may not be as small as the gradient's tolerance asks.
+  void note_gradient_error(const Frame& frame, const Stack& stack) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const IsolationRates rates = rates_along(line_edge(frame, i));
+      const double error = leaf_gradient_error(rates, stack.levels[i]);
+      if (rates.gradient < 1 && error > accuracy_.gradient_tolerance) {
+        volume_.add_gradient_error(error);
+      }
+    }
+  }
+
   void add_line(CellId cell, int axis) {
     const auto [frame, stack] = normalised(along_w(cell, axis));
+    note_gradient_error(frame, stack);
     const Section& section = section_of(stack);
     const std::uint8_t cell_boundary = boundary_faces(frame);
     std::vector<const std::vector<std::int32_t>*> layers;
@@ -361,7 +373,7 @@ class LevelFreezer {
   const CellComplex& complex_;
   const Sharpness& sharpness_;
   Scheme scheme_;
-  const AdaptiveOptions& options_;
+  LeafAccuracy accuracy_;
   VolumeBuilder& volume_;
   Hexahedra hexahedra_;
   CellClassifier classifier_;
@@ -391,9 +403,42 @@ void check(const AdaptiveOptions& options) {
   if (!(options.tolerance >= 1e-12 && options.tolerance <= 0.1)) {
     throw ParameterError("freeze: the tolerance must be 1e-12 to 0.1");
   }
+  if (options.gradient_tolerance != 0 &&
+      !(options.gradient_tolerance >= 1e-12 && options.gradient_tolerance <= 1)) {
+    throw ParameterError("freeze: the gradient tolerance must be 1e-12 to 1");
+  }
   if (options.most_levels < 1 || options.most_levels > 8) {
     throw ParameterError("freeze: levels is " + std::to_string(options.most_levels) +
                          ", must be 1 to 8");
+  }
+}
+
+double gradient_tolerance(const AdaptiveOptions& options) {
+  return options.gradient_tolerance > 0 ? options.gradient_tolerance
+                                        : kGradientToleranceFactor * options.tolerance;
+}
+
+/// What is asked of the leaves in cells of a level: as cells shrink, so do their errors. The cells
+/// of the first refinement may still be all there is of a polygon.
+LeafAccuracy accuracy_of(const AdaptiveOptions& options, const std::vector<glm::dvec3>& rest,
+                         int level) {
+  const Box box = box_of(rest);
+  const glm::dvec3 farthest = glm::max(glm::abs(box.min), glm::abs(box.max));
+  const double scale = std::max({farthest.x, farthest.y, farthest.z}) / (2 * box.radius());
+  const int halvings = std::max(0, level - 1);
+  return {options.tolerance / std::pow(kRefinementRate, halvings),
+          gradient_tolerance(options) / std::pow(kGradientRefinementRate, halvings),
+          std::ldexp(scale, level)};
+}
+
+/// Tells the volume what its leaves miss. error: what is missed of x'.
+void tell_errors(VolumeBuilder& volume, const AdaptiveOptions& options, double error, int level) {
+  if (error > 2 * options.tolerance) {
+    volume.set_freeze_error(error);
+  }
+  const double gradient = kLeafGradientError * std::pow(kGradientRefinementRate, level);
+  if (gradient > gradient_tolerance(options)) {
+    volume.add_gradient_error(gradient);
   }
 }
 
@@ -414,7 +459,8 @@ Volume freeze_adaptive(const SubdivisionLattice& lattice, const AdaptiveOptions&
   for (int level = 0; !cells.empty(); ++level) {
     progress.update("freeze", static_cast<double>(level) / (n_levels + 1));
     volume.begin_level(rows);
-    LevelFreezer freezer(*complex, sharpness, lattice.scheme, options, volume);
+    LevelFreezer freezer(*complex, sharpness, lattice.scheme,
+                         accuracy_of(options, lattice.rest, level), volume);
     std::vector<CellId> rest;
     for (const CellId cell : cells) {
       if (freezer.freeze_exactly(cell)) {
@@ -423,13 +469,12 @@ Volume freeze_adaptive(const SubdivisionLattice& lattice, const AdaptiveOptions&
       rest.push_back(cell);
     }
     if (level == 1) {  // from here on cells are of the same kinds at all levels
-      n_levels = levels_for(options.tolerance, freezer.leaf_error(rest), kRefinementRate,
-                            options.most_levels);
+      n_levels = levels_for(options.tolerance, freezer.leaf_error(rest), options.most_levels);
     }
     if (level == n_levels || 4 * rows->n_weights() > options.most_weights) {
-      const double error = freezer.leaf_error(rest) * std::pow(kRefinementRate, level);
-      if (!rest.empty() && error > 2 * options.tolerance) {
-        volume.set_freeze_error(error);
+      if (!rest.empty()) {
+        tell_errors(volume, options, freezer.leaf_error(rest) * std::pow(kRefinementRate, level),
+                    level);
       }
       for (const CellId cell : rest) {
         freezer.freeze_leaf(cell);

@@ -2,6 +2,7 @@
 
 /// Collects the tables of a volume while levels of refinement come and go.
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <utility>
@@ -31,6 +32,10 @@ class VolumeBuilder {
 
   /// See Volume::freeze_error().
   void set_freeze_error(double error) { tables_.freeze_error = error; }
+  /// See Volume::gradient_error(): the largest counts.
+  void add_gradient_error(double error) {
+    tables_.gradient_error = std::max(tables_.gradient_error, error);
+  }
 
   [[nodiscard]] Volume build(std::vector<glm::dvec3> rest_controls) &&;
 

@@ -46,7 +46,8 @@ struct VolumeTables {
   /// Of the points from what their stencils make of the control points at rest or posed: they give
   /// a volume to control points that lie in a plane or on a line. Empty: none.
   std::vector<glm::dvec3> offsets = {};
-  double freeze_error = 0;  ///< see Volume::freeze_error()
+  double freeze_error = 0;    ///< see Volume::freeze_error()
+  double gradient_error = 0;  ///< see Volume::gradient_error()
 };
 
 /// Patches over points, and the points as stencils over control points. Immutable.
@@ -98,6 +99,8 @@ class Volume {
   /// Where freezing could not be as exact as was asked: about how far it puts points from the
   /// lattice's true volume, relative to the diagonal, for moves of about a cell. 0: as asked.
   [[nodiscard]] double freeze_error() const { return tables_.freeze_error; }
+  /// The same of ∂x'/∂x, inside: about how far it is from the true derivative.
+  [[nodiscard]] double gradient_error() const { return tables_.gradient_error; }
 
   /// Heap memory in use.
   [[nodiscard]] std::size_t bytes() const;

@@ -19,7 +19,7 @@ Volume row_of_cells() {
 }
 
 template <class Real>
-Real number(const std::vector<Real>& blocks, std::size_t n_rows, std::size_t row,
+Real number(const AlignedVector<Real>& blocks, std::size_t n_rows, std::size_t row,
             std::size_t point) {
   return blocks[(point / kBlock * n_rows + row) * kBlock + point % kBlock];
 }

@@ -139,13 +139,23 @@ TEST(Scene, freezes_adaptively_or_uniformly_and_refuses_all_else) {
   EXPECT_EQ(freeze(lattice, "uniform:2").n_patches(), 64u);
   EXPECT_EQ(freeze(lattice, "adaptive").n_patches(), 1u);
   EXPECT_EQ(freeze(lattice, "adaptive:1e-7").n_patches(), 1u);
-  for (const std::string word : {"", "uniform", "uniform:0", "uniform:9", "uniform: 2", "adaptive:",
-                                 "adaptive:0", "adaptive:nan", "adaptive:1", "adaptively"}) {
+  for (const std::string word :
+       {"", "uniform", "uniform:0", "uniform:9", "uniform: 2", "adaptive:", "adaptive:0",
+        "adaptive:nan", "adaptive:1", "adaptively", "adaptive:1e-3:", "adaptive:1e-3:2",
+        "adaptive:1e-3:nan", "adaptive::1e-3", "adaptive:1e-3:1e-3:1e-3"}) {
     EXPECT_EQ(error_of([&] { (void)freeze(lattice, word); }),
               "'freeze' is '" + word +
-                  "', must be adaptive, adaptive:TOLERANCE from 1e-12 to 0.1, or uniform:N with N "
-                  "from 1 to 8");
+                  "', must be adaptive, adaptive:TOLERANCE from 1e-12 to 0.1, "
+                  "adaptive:TOLERANCE:TOLERANCE_OF_DERIVATIVES, or uniform:N with N from 1 to 8");
   }
+}
+
+TEST(Scene, freezes_with_finer_derivatives_where_they_are_asked_for) {
+  const SubdivisionLattice lattice = test::prism(test::flower_section(5), 1);
+  EXPECT_EQ(freeze(lattice, "adaptive:1e-5:1e-3").n_patches(),
+            freeze(lattice, "adaptive").n_patches());
+  EXPECT_GT(freeze(lattice, "adaptive:1e-5:1e-5").n_patches(),
+            freeze(lattice, "adaptive").n_patches());
 }
 
 }  // namespace
