@@ -1,7 +1,5 @@
-/// How fast a drag is, beside copying the bytes that it reads and writes and beside a full
-/// evaluation, and table 1 of [THB18] redone. Ratios within this run; one thread unless said.
-///
-/// usage: drag_bench
+// How fast a drag is, beside copying the bytes that it reads and writes and beside a full
+// evaluation, and table 1 of [THB18] redone. One thread unless said.
 
 #include <fmt/format.h>
 
@@ -19,41 +17,15 @@
 #include "deform/evaluate/drag.h"
 #include "deform/evaluate/evaluator.h"
 #include "lattice/core/parallel.h"
+#include "tests/bench/sections.h"
 #include "tests/bench/timing.h"
 #include "tests/support/families.h"
 #include "tests/support/spline_volume.h"
 
-namespace espalier {
+namespace espalier::bench {
 namespace {
 
-using bench::now;
-
 constexpr int kCells = 10;  // an axis: 11 control points
-
-/// The least times of several works, taken in turn, each warm: as in a drag, it has just run.
-template <class... Works>
-std::array<double, sizeof...(Works)> best_seconds(int rounds, const Works&... works) {
-  std::array<double, sizeof...(Works)> best;
-  best.fill(1e300);
-  for (int round = 0; round < rounds; ++round) {
-    std::size_t at = 0;
-    const auto time = [&](const auto& work) {
-      work();
-      const double start = now();
-      work();
-      best[at] = std::min(best[at], now() - start);
-      ++at;
-    };
-    (time(works), ...);
-  }
-  return best;
-}
-
-void print(const std::string& what, double value, char relation, double mark) {
-  const bool is_reached = relation == '<' ? value <= mark : value >= mark;
-  fmt::print("  {:<58} {:>8.3g}  {} {:<5} {}\n", what, value, relation == '<' ? "≤" : "≥", mark,
-             is_reached ? "reached" : "missed");
-}
 
 /// A wavy torus in a grid of kCells³ cells, bent a little, its points in the order of a model.
 struct Scenery {
@@ -146,13 +118,13 @@ void bench_drag(std::size_t n, double frame_mark, double faster_mark) {
       "{:.3f}, stopped {:.3f}; full evaluation {:.2f}; memcpys {:.3f}, {:.3f}\n",
       n, drag.reached().size(), ns(positions), ns(frames), ns(checking), ns(stopping),
       ns(evaluating), ns(copying), ns(copying_all));
-  print("positions, a memcpy of the 28 bytes to it", copying / positions, '>', 0.95);
-  print("positions, normals, step, a memcpy of the 76 bytes to it", copying_all / frames, '>',
-        frame_mark);
-  print("positions, normals, step, times as fast as a full evaluation", evaluating / frames, '>',
-        faster_mark);
-  print("fold check and largest step, to positions", checking / positions, '<', 0.4);
-  print("the same where the drag is stopped", stopping / positions, '<', 0.4);
+  print_mark("positions, a memcpy of the 28 bytes to it", copying / positions, '>', 0.95);
+  print_mark("positions, normals, step, a memcpy of the 76 bytes to it", copying_all / frames, '>',
+             frame_mark);
+  print_mark("positions, normals, step, times as fast as a full evaluation", evaluating / frames,
+             '>', faster_mark);
+  print_mark("fold check and largest step, to positions", checking / positions, '<', 0.4);
+  print_mark("the same where the drag is stopped", stopping / positions, '<', 0.4);
 }
 
 struct PaperRow {
@@ -199,10 +171,8 @@ void redo_table(const PaperRow& paper) {
 }
 
 }  // namespace
-}  // namespace espalier
 
-int main() {
-  using namespace espalier;
+void bench_drags() {
   set_thread_count(1);
   fmt::print("drag in float, {}, one thread\n", name_of(instruction_set()));
   bench_drag(46590, 0.80, 8);
@@ -215,3 +185,5 @@ int main() {
   redo_table({"Suzanne", 46590, 29294, 97, 4.0424, 9.4882});
   redo_table({"violin case", 527252, 485683, 532, 18.327, 90.228});
 }
+
+}  // namespace espalier::bench

@@ -12,6 +12,8 @@ void bench_embedding();
 void bench_freezing();
 /// Evaluating bound points, with the mark of each line.
 void bench_evaluation();
+/// Dragging control points, with the mark of each line, and table 1 of [THB18] redone.
+void bench_drags();
 /// Moving the vertices of refined lattices with their control points, with the mark of each line.
 void bench_reposing();
 
