@@ -128,8 +128,8 @@ TEST_F(CommandLine, freezing_options_that_are_none_are_refused) {
     EXPECT_EQ(
         refusal({"deform", "m.obj", "--lattice", "a.json", "--freeze", word, "-o", "o.obj"}, 2),
         "--freeze is '" + word +
-            "', must be adaptive, adaptive:TOLERANCE from 1e-12 to 0.1, or uniform:N with N from "
-            "1 to 8");
+            "', must be adaptive, adaptive:TOLERANCE from 1e-12 to 0.1, "
+            "adaptive:TOLERANCE:TOLERANCE_OF_DERIVATIVES, or uniform:N with N from 1 to 8");
   }
   EXPECT_EQ(files(), (std::vector<std::string>{"a.json", "m.obj"}));
 }
