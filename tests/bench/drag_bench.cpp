@@ -16,6 +16,7 @@
 
 #include "deform/evaluate/drag.h"
 #include "deform/evaluate/evaluator.h"
+#include "lattice/core/cache_aligned.h"
 #include "lattice/core/parallel.h"
 #include "tests/bench/sections.h"
 #include "tests/bench/timing.h"
@@ -93,11 +94,11 @@ void bench_drag(std::size_t n, double frame_mark, double faster_mark) {
   const Scenery scenery(n);
   const Drag<float> drag(scenery.model(true), whole_selection());
   const FullEvaluation full(scenery);
-  std::vector<glm::vec3> points(n);
-  std::vector<glm::vec3> normals(n);
+  AlignedVector<glm::vec3> points(n);  // as a vertex buffer is
+  AlignedVector<glm::vec3> normals(n);
   std::vector<float> determinants(n);
-  std::vector<char> from(38 * n, 1);
-  std::vector<char> to(38 * n, 2);
+  AlignedVector<char> from(38 * n, 1);
+  AlignedVector<char> to(38 * n, 2);
   const glm::dvec3 by(0.1, 0.07, -0.05);
   double safe = 1;
   const auto [copying, positions, copying_all, frames, checking, stopping, evaluating] =
