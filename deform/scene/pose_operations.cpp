@@ -1,9 +1,12 @@
 /// Operations on a lattice's points, and what they do to models.
 
+#include <algorithm>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "deform/injectivity/injectivity.h"
 #include "deform/scene/operations.h"
 #include "lattice/core/error.h"
 #include "lattice/topology/defect.h"
@@ -59,13 +62,34 @@ std::vector<glm::dvec3> moved_points(const Arguments& arguments,
   return moved;
 }
 
+/// A grid that goes on being one; what it does at rest is not affine any more.
+template <class GridLattice>
+Scene with_rest(const Scene& scene, const std::string& name, GridLattice lattice,
+                const Arguments& arguments) {
+  lattice.rest = moved_points(arguments, lattice.rest);
+  require_valid(lattice);
+  const auto volume = std::make_shared<const Volume>(freeze(lattice));
+  const auto differs = [&](double weight) { return weight != volume->weights()[0]; };
+  if (std::none_of(volume->weights().begin(), volume->weights().end(), differs)) {
+    static_cast<void>(InjectivityCheck(volume));  // throws where a patch is turned inside out
+  }
+  return with_lattice(scene, name, std::move(lattice));
+}
+
 /// A lattice at rest that moves must be a valid one where it goes; a pose may fold.
 Scene move_points(const Scene& scene, const Arguments& arguments, const Progress& progress) {
   const std::string& name = arguments.text("lattice");
   if (arguments.text("shape") == "pose") {
     return with_pose(scene, name, moved_points(arguments, lattice_in(scene, name).posed_points()));
   }
-  SubdivisionLattice moved = subdivision_lattice_in(scene, name, "moving points at rest");
+  const Lattice& lattice = lattice_in(scene, name);
+  if (const auto* tensor = lattice.as<TensorLattice>()) {
+    return with_rest(scene, name, *tensor, arguments);
+  }
+  if (const auto* thb = lattice.as<ThbLattice>()) {
+    return with_rest(scene, name, *thb, arguments);
+  }
+  SubdivisionLattice moved = *lattice.as<SubdivisionLattice>();
   moved.rest = moved_points(arguments, moved.rest);
   throw_if_defective(find_geometric_defects(*moved.complex, moved.rest, progress));
   return with_lattice(scene, name, std::move(moved));
