@@ -19,6 +19,7 @@ struct TriangleMesh {
   std::vector<std::uint32_t> indices;  ///< Three a triangle.
   glm::vec3 color = kClay;
   float opacity = 1;  ///< In [0,1]; below 1 what is behind shines through.
+  float unit = 1;     ///< Drawing units that one of the positions' is long; above 0.
 };
 
 /// Straight lines of one width with round ends.

@@ -29,7 +29,9 @@ struct GpuItem {
   Kind kind = Kind::Mesh;
   GLsizei n = 0;  // indices of a mesh, else instances
   glm::vec3 color{0};
-  float opacity = 1;         // of a mesh
+  float opacity = 1;  // of a mesh
+  float unit = 1;     // of a mesh
+  bool has_wireframe = false;
   float hidden_opacity = 0;  // of lines and points
   float width = 0;           // or diameter
   float outline = 0;
@@ -83,6 +85,9 @@ class OpenglRenderer final : public Renderer {
                            std::span<const glm::vec3> positions) override;
   void do_update_normals(ItemId id, std::size_t first, std::span<const glm::vec3> normals) override;
   void do_update_colors(ItemId id, std::size_t first, std::span<const glm::vec3> colors) override;
+  void do_set_wireframe(ItemId id, bool has_wireframe) override {
+    items_.at(id.value).has_wireframe = has_wireframe;
+  }
   void do_draw(const Shot& shot) override;
   void do_take_picture(const Shot& shot, Picture& picture) override;
 
@@ -91,6 +96,7 @@ class OpenglRenderer final : public Renderer {
   void draw_background(const Shot& shot, const Tile& tile);
   void set_view(const GlProgram& program, const Shot& shot, const Tile& tile) const;
   void draw_meshes(const Shot& shot, bool is_opaque) const;
+  void draw_wireframe(const GpuItem& item) const;
   void draw_marks(const Shot& shot, const MarkPass& pass) const;
   void draw_lines(const GpuItem& item, const MarkPass& pass) const;
   void draw_points(const GpuItem& item, const MarkPass& pass) const;
@@ -107,6 +113,7 @@ void OpenglRenderer::do_add(ItemId id, const TriangleMesh& mesh) {
   item.n = static_cast<GLsizei>(mesh.indices.size());
   item.color = mesh.color;
   item.opacity = mesh.opacity;
+  item.unit = mesh.unit;
   upload<glm::vec3>(item.positions, mesh.positions);
   upload<glm::vec3>(item.normals_or_colors, mesh.normals);
   upload<std::uint32_t>(item.indices, mesh.indices);
@@ -287,10 +294,26 @@ void OpenglRenderer::draw_meshes(const Shot& shot, bool is_opaque) const {
     if (item.kind == Kind::Mesh && (item.opacity == 1) == is_opaque) {
       shaders_.mesh.set("color", item.color);
       shaders_.mesh.set("opacity", item.opacity);
+      shaders_.mesh.set("unit", item.unit);
       glBindVertexArray(item.layout.id());
       glDrawElements(GL_TRIANGLES, item.n, GL_UNSIGNED_INT, nullptr);
+      if (item.has_wireframe) {
+        draw_wireframe(item);
+      }
     }
   }
+}
+
+/// A mesh that was just drawn once more, as lines, a little nearer to the eye.
+void OpenglRenderer::draw_wireframe(const GpuItem& item) const {
+  constexpr float kDarker = 0.3F;
+  shaders_.mesh.set("color", kDarker * item.color);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  glEnable(GL_POLYGON_OFFSET_LINE);
+  glPolygonOffset(-1, -1);
+  glDrawElements(GL_TRIANGLES, item.n, GL_UNSIGNED_INT, nullptr);
+  glDisable(GL_POLYGON_OFFSET_LINE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
 void OpenglRenderer::draw_marks(const Shot& shot, const MarkPass& pass) const {

@@ -38,10 +38,11 @@ void main() { pixel = vec4(linear(mix(bottom, top, height)), 1.0); }
 constexpr const char* kMeshVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
+uniform float unit;
 out vec3 eye_position;
 centroid out vec3 eye_normal;
 void main() {
-  vec4 placed = view * vec4(position, 1.0);
+  vec4 placed = view * vec4(unit * position, 1.0);
   eye_position = placed.xyz;
   eye_normal = mat3(view) * normal;
   gl_Position = projection * placed;
