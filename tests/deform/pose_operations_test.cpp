@@ -78,6 +78,21 @@ TEST(PoseOperations, set_pose_goes_back_to_rest) {
   EXPECT_TRUE(subdivision_lattice_in(done(posed, "set pose lattice=box"), "box").pose.empty());
 }
 
+TEST(PoseOperations, a_models_influence_says_how_much_of_the_motion_is_saved) {
+  std::string all = "0";
+  for (int i = 1; i < 27; ++i) {
+    all += "," + std::to_string(i);
+  }
+  Scene scene = done(bound_scene(), "move points lattice=box points=" + all + " by=1,0,0");
+  scene = done(scene, "set influence model=m strength=0.25");
+  const std::string path = ::testing::TempDir() + "/espalier_influence.obj";
+  (void)done(scene, "save deformed model=m path=" + path);
+  EXPECT_EQ(read_file(path), "v 1.25 1 1\n");
+  EXPECT_EQ(with_model(scene, "m", model_in(scene, "m")).influences.size(), 0u);
+  EXPECT_NE(refusal("set influence model=m only=nothing"), "no error");
+  EXPECT_NE(refusal("set influence model=none"), "no error");
+}
+
 TEST(PoseOperations, save_deformed_writes_what_the_bound_lattices_do_and_leaves_the_scene) {
   std::string all = "0";
   for (int i = 1; i < 27; ++i) {

@@ -194,6 +194,29 @@ TEST_F(BentModelTest, two_lattices_bend_a_model_together_while_one_is_dragged) {
   expect_drag_is_operation({"g", "z", "0", ".", "4"});
 }
 
+TEST_F(BentModelTest, strength_and_weights_of_points_are_followed_by_drags_and_operations) {
+  const std::string file = ::testing::TempDir() + "/espalier_bent_weights.txt";
+  std::string weights;
+  for (int i = 0; i < 1600; ++i) {
+    weights += i % 3 == 0 ? "0\n" : i % 3 == 1 ? "0.5\n" : "1\n";
+  }
+  write_file(file, weights);
+  press({"a", "g", "z", "1", "enter"});
+  const std::vector<glm::vec3> whole = positions();
+  session_.run_line("set influence model=\"" + path_ + "\" strength=0.5 weights=\"" + file + "\"");
+  const auto& points = bent().drawing().vertex_points();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double part = 0.25 * (points[i] % 3);
+    EXPECT_NEAR(bent().positions()[i].z, whole[i].z - (1 - part), 1e-6);
+  }
+  select_x(4);
+  expect_drag_is_operation({"g", "z", "0", ".", "7"});
+  expect_drag_is_operation({"r", "x", "3", "0"});
+  expect_drag_is_operation({"o", "r", "x", "2", "0"});
+  press({"ctrl+z", "ctrl+z", "ctrl+z", "ctrl+z"});
+  EXPECT_EQ(positions(), whole);
+}
+
 TEST_F(BentModelTest, a_pose_with_weights_of_its_own_is_dragged_by_evaluation) {
   const std::string file = ::testing::TempDir() + "/espalier_bent_nurbs.json";
   session_.run_line("new nurbs counts=4,4,4 max=4,2,2 output=grid");

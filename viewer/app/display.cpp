@@ -28,9 +28,11 @@ void Display::add_model(const Session& session, const std::string& name, const B
   mesh.positions.assign(bent.positions().begin(), bent.positions().end());
   mesh.normals.assign(bent.normals().begin(), bent.normals().end());
   mesh.indices = bent.drawing().triangles();
+  mesh.places = bent.drawing().vertex_places();
+  mesh.texture = bent.texture();
   mesh.unit = static_cast<float>(session.view().frame.scale);
   models_.emplace(name, ShownModel{bent.model(), session.view().frame, renderer_.add(mesh),
-                                   bent.revision(), false});
+                                   bent.revision(), bent.arrangement(), false});
 }
 
 void Display::update_models(const Session& session) {
@@ -41,6 +43,7 @@ void Display::update_models(const Session& session) {
     const bool is_gone =
         found == models.end() ||
         found->second.model().bytes().data() != entry.second.model.bytes().data() ||
+        found->second.arrangement() != entry.second.arrangement ||
         entry.second.frame.origin != frame.origin || entry.second.frame.scale != frame.scale;
     if (is_gone) {
       renderer_.remove(entry.second.item);
@@ -114,7 +117,7 @@ void Display::update_influence(const Session& session) {
   const auto bound = std::find_if(all.begin(), all.end(), [&](const auto& entry) {
     return entry.first.second == session.lattice();
   });
-  if (session.show().has_influence && bound != all.end() && !session.selection().empty()) {
+  if (session.show().has_influence && bound != all.end()) {
     const BoundModel& model = bound->second;
     if (!heat_ || !heat_->is_for(model.binding)) {
       heat_.emplace(*model.volume, model.binding);

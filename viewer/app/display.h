@@ -28,6 +28,7 @@ class Display {
     DrawingFrame frame;
     ItemId item;
     std::uint64_t revision;
+    int arrangement;
     bool has_wireframe;
   };
   void update_models(const Session& session);

@@ -188,7 +188,14 @@ PointSet influence_marks(const Session& session, const std::string& model,
                          const InfluenceHeat& heat) {
   PointSet dots{{}, {}, 5, 0, 0};
   const BentModel& bent = session.bent_models().all().at(model);
-  const std::vector<double> weights = heat.of(session.selected_vertices());
+  std::vector<double> weights = session.selection().empty()
+                                    ? std::vector<double>(bent.model().points().size(), 1.0)
+                                    : heat.of(session.selected_vertices());
+  const auto influence = session.scene().influences.find(model);
+  for (std::size_t i = 0; influence != session.scene().influences.end() && i < weights.size();
+       ++i) {
+    weights[i] *= influence->second->influence.at(i);
+  }
   const auto scale = static_cast<float>(session.view().frame.scale);
   const auto& points = bent.drawing().vertex_points();
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -26,7 +26,8 @@ struct LatticeMarks {
 /// other modes those that are folded.
 [[nodiscard]] PointSet model_marks(const Session& session);
 
-/// The points of a bound model by how much the selection moves them.
+/// The points of a bound model by how much the selection moves them, or all lattices may if nothing
+/// is selected.
 [[nodiscard]] PointSet influence_marks(const Session& session, const std::string& model,
                                        const InfluenceHeat& heat);
 

@@ -65,6 +65,10 @@ void Viewer::draw(double seconds) {
   for (const Action& action : draw_panels(session_, state_)) {
     action(session_);
   }
+  // What could not be saved is not lost.
+  if (std::exchange(state_.saves_and_quits, false)) {
+    state_.quits = !session_.journal().is_changed();
+  }
   const std::string opened = std::exchange(state_.opened, "");
   if (session_.scene().models.contains(opened) || session_.scene().lattices.contains(opened)) {
     remember(opened);

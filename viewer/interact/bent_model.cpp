@@ -70,6 +70,16 @@ Binding binding_of_vertices(const Binding& binding, std::span<const std::uint32_
   return result;
 }
 
+template <class Value>
+void reorder(std::span<const std::uint32_t> order, std::vector<Value>& values) {
+  std::vector<Value> reordered;
+  reordered.reserve(values.size());
+  for (const std::uint32_t old : order) {
+    reordered.push_back(values[old]);
+  }
+  values = std::move(reordered);
+}
+
 /// Ascending vertices as ranges.
 template <class Vertices>
 std::vector<VertexRange> ranges_of(const Vertices& vertices) {
@@ -87,8 +97,16 @@ std::vector<VertexRange> ranges_of(const Vertices& vertices) {
 }  // namespace
 
 BentModel::BentModel(const Model& model, const DrawingFrame& frame, std::uint64_t revision)
+    : BentModel(model, frame, revision, find_texture(model)) {}
+
+BentModel::BentModel(const Model& model, const DrawingFrame& frame, std::uint64_t revision,
+                     std::optional<ModelTexture> texture)
     : model_(model),
-      drawing_(model.points(), model.faces(), {.frame = {frame.origin, 1}}),
+      drawing_(model.points(), model.faces(),
+               {.frame = {frame.origin, 1},
+                .corner_places = texture ? std::span<const glm::vec2>(texture->corner_places)
+                                         : std::span<const glm::vec2>()}),
+      texture_(texture ? texture->picture : nullptr),
       rest_(vertices_from(frame.origin, model, drawing_)),
       normals_(drawing_.normals(model.points())),
       revision_(revision),
@@ -97,7 +115,52 @@ BentModel::BentModel(const Model& model, const DrawingFrame& frame, std::uint64_
   positions_.assign(rest_.begin(), rest_.end());
 }
 
+/// Vertices that are held come first, in the order of the binding.
+void BentModel::arrange_for(const Binding& binding) {
+  const Binding of_vertices = binding_of_vertices(binding, drawing_.vertex_points());
+  std::vector<char> is_held(rest_.size(), 0);
+  std::vector<std::uint32_t> order(of_vertices.points.begin(), of_vertices.points.end());
+  for (const std::uint32_t vertex : order) {
+    is_held[vertex] = 1;
+  }
+  for (std::uint32_t vertex = 0; vertex < rest_.size(); ++vertex) {
+    if (is_held[vertex] == 0) {
+      order.push_back(vertex);
+    }
+  }
+  drawing_ = drawing_.reordered(order);
+  reorder(order, rest_);
+  reorder(order, rest_normals_);
+  reorder(order, positions_);
+  reorder(order, normals_);
+  find_vertex_influence();
+  bound_.clear();
+  ++arrangement_;
+  note_change({{0, rest_.size()}});
+}
+
+void BentModel::set_influence(std::shared_ptr<const ModelInfluence> influence) {
+  if (influence != influence_) {
+    influence_ = std::move(influence);
+    find_vertex_influence();
+    is_dragged_ = true;  // bent otherwise than it should be
+  }
+}
+
+void BentModel::find_vertex_influence() {
+  vertex_influence_ = {influence_ ? influence_->influence.strength : 1, {}};
+  if (influence_ && !influence_->influence.weights.empty()) {
+    for (const std::uint32_t point : drawing_.vertex_points()) {
+      vertex_influence_.weights.push_back(influence_->influence.weights[point]);
+    }
+  }
+}
+
 void BentModel::bind_vertices(const std::vector<Bend>& bends) {
+  if (bends.size() == 1 && bends.front().binding != arranged_for_) {
+    arranged_for_ = bends.front().binding;
+    arrange_for(*arranged_for_);
+  }
   std::vector<Bound> bound;
   for (const Bend& bend : bends) {
     const auto found = std::find_if(bound_.begin(), bound_.end(), [&](const Bound& known) {
@@ -130,8 +193,9 @@ void BentModel::bend(const std::vector<Bend>& bends) {
   bind_vertices(bends);
   bends_ = bends;
   const std::vector<LatticeMotion> motions = this->motions(bends_);
-  const std::vector<glm::dvec3> points = combined_points(rest_, motions);
-  const std::vector<glm::dmat3> gradients = combined_gradients(rest_.size(), motions);
+  const std::vector<glm::dvec3> points = combined_points(rest_, motions, vertex_influence_);
+  const std::vector<glm::dmat3> gradients =
+      combined_gradients(rest_.size(), motions, vertex_influence_);
   folded_.assign(bends.empty() ? 0 : rest_.size(), 0);
   std::vector<std::uint8_t> has_moved(rest_.size());
   parallel_for(rest_.size(), [&](std::size_t i) {
@@ -154,7 +218,10 @@ void BentModel::bend(const std::vector<Bend>& bends) {
 }
 
 DragModel BentModel::drag_model(std::span<const LatticeMotion> motions) const {
-  return {.rest_points = rest_, .motions = motions, .normals = rest_normals_};
+  return {.rest_points = rest_,
+          .motions = motions,
+          .normals = rest_normals_,
+          .influence = influence_ ? &vertex_influence_ : nullptr};
 }
 
 void BentModel::begin_drag(const DragPlan& plan) {
@@ -217,7 +284,7 @@ void BentModel::note_dragged() {
 }
 
 void BentModel::begin_evaluation() {
-  if (bends_.size() == 1 && bound_.front().second->fringe.points.empty()) {
+  if (bends_.size() == 1 && !influence_ && bound_.front().second->fringe.points.empty()) {
     const auto& evaluation = drag_.emplace<FloatEvaluation>(
         bends_.front().volume, bound_.front().second, rest_, rest_normals_);
     reached_ = ranges_of(evaluation.held());

@@ -7,6 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <variant>
@@ -14,11 +15,12 @@
 
 #include "deform/evaluate/affine_drag.h"
 #include "deform/evaluate/drag.h"
-#include "deform/model/model.h"
+#include "deform/scene/scene.h"
 #include "viewer/interact/drag_motion.h"
 #include "viewer/interact/float_evaluation.h"
 #include "viewer/render/drawing_frame.h"
 #include "viewer/render/mesh_drawing.h"
+#include "viewer/render/model_texture.h"
 
 namespace espalier::viewer {
 
@@ -57,12 +59,16 @@ class BentModel {
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const MeshDrawing& drawing() const { return drawing_; }
+  /// None for a model without.
+  [[nodiscard]] const std::shared_ptr<const Picture>& texture() const { return texture_; }
   /// #vertices each.
   [[nodiscard]] std::span<const glm::vec3> positions() const { return positions_; }
   [[nodiscard]] std::span<const glm::vec3> normals() const { return normals_; }
   /// 1 where space is folded; empty while nothing bends the model.
   [[nodiscard]] std::span<const std::uint8_t> folded() const { return folded_; }
 
+  /// How much of it the model follows from the next bend() on; null: all of it.
+  void set_influence(std::shared_ptr<const ModelInfluence> influence);
   /// Bends the model anew, if it is not bent so already. O(#vertices · degree³).
   void bend(const std::vector<Bend>& bends);
 
@@ -86,6 +92,9 @@ class BentModel {
   /// whether vertices are folded. controls: #controls. O(#vertices · degree³).
   bool evaluate(std::size_t dragged, std::span<const glm::dvec3> controls);
 
+  /// Grows when the vertices get another order: that in which the lattice that bends the model
+  /// alone evaluates them.
+  [[nodiscard]] int arrangement() const { return arrangement_; }
   /// Grows whenever vertices move.
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
   /// Ranges that hold all that moved since a revision, ascending.
@@ -96,19 +105,29 @@ class BentModel {
   [[nodiscard]] std::vector<LatticeMotion> motions(const std::vector<Bend>& bends) const;
   [[nodiscard]] DragModel drag_model(std::span<const LatticeMotion> motions) const;
   void bind_vertices(const std::vector<Bend>& bends);
+  void arrange_for(const Binding& binding);
+  void find_vertex_influence();
   void note_change(std::vector<VertexRange> ranges);
   void note_dragged();
 
+  BentModel(const Model& model, const DrawingFrame& frame, std::uint64_t revision,
+            std::optional<ModelTexture> texture);
+
   Model model_;
   MeshDrawing drawing_;
+  std::shared_ptr<const Picture> texture_;
   std::vector<glm::dvec3> rest_;          // #vertices, from the frame's origin
   std::vector<glm::dvec3> rest_normals_;  // #vertices
+  std::shared_ptr<const ModelInfluence> influence_;
+  Influence vertex_influence_;  // of the vertices
   std::vector<Bend> bends_;
   std::vector<Bound> bound_;  // of the points, and the same of the vertices
   std::vector<glm::vec3> positions_;
   std::vector<glm::vec3> normals_;
   std::vector<std::uint8_t> folded_;
   std::variant<std::monostate, Drag<float>, AffineDrag<float>, FloatEvaluation> drag_;
+  std::shared_ptr<const Binding> arranged_for_;
+  int arrangement_ = 0;
   std::vector<VertexRange> reached_;  // by the drag
   bool is_dragged_ = false;           // since it was bent
   bool has_followed_ = false;         // since the drag began

@@ -38,6 +38,9 @@ void BentModels::update(const Scene& scene, const DrawingFrame& frame, bool is_b
       // Revisions of models that took one another's place never meet.
       models_.emplace(name, BentModel(model, frame, ++n_made_ << 32));
     }
+    const auto influence = scene.influences.find(name);
+    models_.at(name).set_influence(influence == scene.influences.end() ? nullptr
+                                                                       : influence->second);
     models_.at(name).bend(bends_[name].bends);
   }
 }

@@ -36,12 +36,15 @@ class FloatEvaluation {
   [[nodiscard]] std::vector<std::uint32_t> held() const;
 
  private:
+  std::size_t mark_folded(std::span<std::uint8_t> folded);
+
   std::shared_ptr<const Volume> volume_;
   std::shared_ptr<const Binding> binding_;
   std::unique_ptr<Evaluator<float>> evaluator_;
   VolumeMotion<float> motion_;
-  std::vector<glm::vec3> points_, normals_;  // #held
+  std::vector<glm::vec3> points_, normals_;  // #held; empty: the first vertices are those held
   std::vector<float> determinants_;          // #held
+  bool was_folded_ = true;                   // as far as is known
 };
 
 }  // namespace espalier::viewer

@@ -154,11 +154,14 @@ void Session::redo() {
   scene_changed();
 }
 
+/// What is being dragged stays in its frame.
 void Session::frame_all() {
   const Box box = bounds_of(scene());
-  view_.frame = DrawingFrame::of(box);
+  if (!transform_) {
+    view_.frame = DrawingFrame::of(box);
+    refresh();
+  }
   view_.camera = view_.camera.fitted_to(view_.frame.to_drawing(box), view_.aspect());
-  refresh();
 }
 
 void Session::frame_selected() {

@@ -145,6 +145,7 @@ class Session {
   void mirror(std::vector<glm::dvec3>& to) const;
   void cancel_transform();
   void finish_transform();
+  void finish_held(const glm::dvec2& at);
   void finish_extrusion();
   void click(const glm::dvec2& at);
   void click_loop(const glm::dvec2& at);

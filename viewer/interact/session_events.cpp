@@ -117,7 +117,7 @@ void Session::on(const MouseMove& move) {
 void Session::on(const MouseRelease& release) {
   on(MouseMove{release.at});
   if (transform_ && transform_->is_held && release.button == MouseButton::Left) {
-    finish_transform();
+    finish_held(release.at);
     return;
   }
   const Drag drag = std::exchange(drag_, Drag::None);
@@ -132,6 +132,16 @@ void Session::on(const MouseRelease& release) {
     click(release.at);
   } else if (drag == Drag::Select) {
     select_box(*box);
+  }
+}
+
+/// A click on a handle is for what lies behind it.
+void Session::finish_held(const glm::dvec2& at) {
+  if (glm::length(at - transform_->from) <= kClick) {
+    cancel_transform();
+    click(at);
+  } else {
+    finish_transform();
   }
 }
 

@@ -6,10 +6,24 @@
 #include "viewer/interact/session.h"
 
 namespace espalier::viewer {
+namespace {
+
+/// What is hidden is not selected along with the rest.
+Selection visible_among(const Selection& elements, const std::vector<bool>& is_visible) {
+  Selection visible;
+  for (const std::int32_t element : elements) {
+    if (is_visible[static_cast<std::size_t>(element)]) {
+      visible.insert(element);
+    }
+  }
+  return visible;
+}
+
+}  // namespace
 
 /// What is selected stays so as far as the new kind can say it.
 void Session::set_element_kind(ElementKind kind) {
-  selection_ = elements_.within(kind, selected_vertices());
+  selection_ = visible_among(elements_.within(kind, selected_vertices()), visible_.of(kind));
   kind_ = kind;
 }
 
@@ -23,7 +37,7 @@ void Session::select_all(bool is_selected) {
 }
 
 void Session::select_connected() {
-  selection_ = elements_.connected(kind_, selection_);
+  selection_ = visible_among(elements_.connected(kind_, selection_), visible_.of(kind_));
 }
 
 void Session::invert_selection() {
@@ -76,8 +90,9 @@ void Session::click_loop(const glm::dvec2& at) {
     selection_.clear();
   }
   if (edge) {
-    const Selection loop =
-        elements_.within(kind_, elements_.vertices(ElementKind::Edge, elements_.loop(*edge)));
+    const Selection loop = visible_among(
+        elements_.within(kind_, elements_.vertices(ElementKind::Edge, elements_.loop(*edge))),
+        visible_.of(kind_));
     selection_.insert(loop.begin(), loop.end());
   }
 }

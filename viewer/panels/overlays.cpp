@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
+#include <utility>
 
 #include "deform/scene/operations.h"
 #include "viewer/panels/fixed_panel.h"
@@ -56,8 +57,8 @@ void draw_help(const Session& session, PanelState& state) {
   ImGui::End();
 }
 
-/// Commands run at once; an operation opens its form; and a whole line, as journals have it, is
-/// done.
+/// Commands run at once; an operation opens its form; Enter takes the first that is listed; and a
+/// whole line, as journals have it, is done.
 void draw_palette(const Session& session, PanelState& state, std::vector<Action>& actions) {
   if (!state.shows_palette) {
     return;
@@ -69,22 +70,27 @@ void draw_palette(const Session& session, PanelState& state, std::vector<Action>
   const bool is_entered = ImGui::InputText("##search", state.search.data(), state.search.size(),
                                            ImGuiInputTextFlags_EnterReturnsTrue);
   const std::string text = state.search.data();
+  bool takes_next = is_entered;
   if (is_entered && text.find('=') != std::string::npos) {
     actions.emplace_back([text](Session& target) { target.run_line(text); });
-    state.shows_palette = false;
+    state.shows_palette = takes_next = false;
   }
   ImGui::BeginChild("found");
+  const std::string wanted = lower(text.substr(0, text.find('=')));
+  const auto is_chosen = [&](const std::string& label) {
+    return lower(label).find(wanted) != std::string::npos &&
+           (ImGui::Selectable(label.c_str()) || std::exchange(takes_next, false));
+  };
   for (const Command& command : commands(session.handling().preset)) {
     const std::string label = command.name + "   (" + command.keys + ")";
-    if (lower(label).find(lower(text)) != std::string::npos && ImGui::Selectable(label.c_str())) {
+    if (is_chosen(label)) {
       actions.emplace_back(command.run);
       state.shows_palette = false;
     }
   }
   for (const Operation& operation : operations()) {
     const std::string label = operation.name + " ...   " + operation.summary;
-    if (lower(label).find(lower(text.substr(0, text.find('=')))) != std::string::npos &&
-        ImGui::Selectable(label.c_str())) {
+    if (is_chosen(label)) {
       open_form(operation, session, state);
       state.shows_palette = false;
     }
@@ -100,7 +106,7 @@ void draw_quit_question(PanelState& state, std::vector<Action>& actions) {
   state.asks_to_quit = begin_overlay("There are unsaved changes", 380, 90);
   if (ImGui::Button("Save and quit")) {
     actions.emplace_back([](Session& session) { session.save(); });
-    state.quits = true;
+    state.saves_and_quits = true;
   }
   ImGui::SameLine();
   if (ImGui::Button("Quit")) {

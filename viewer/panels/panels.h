@@ -21,9 +21,10 @@ struct PanelState {
   bool shows_palette = false;
   bool shows_files = false;
   bool asks_to_quit = false;  ///< there are unsaved changes
-  bool quits = false;         ///< set once the program may end
-  std::string path{};         ///< typed
-  std::string folder{};       ///< shown; "": where the program runs
+  bool saves_and_quits = false;
+  bool quits = false;    ///< set once the program may end
+  std::string path{};    ///< typed
+  std::string folder{};  ///< shown; "": where the program runs
   std::array<char, 128> search{};
   std::vector<std::string> recent;  ///< files, the last one first
   std::string opened{};             ///< by the panel just now; "": nothing

@@ -84,9 +84,11 @@ void draw_show_panel(const Session& session, std::vector<Action>& actions) {
   ImGui::Checkbox("Boundary of the volume", &show.has_surface);
   ImGui::Checkbox("Cells, shrunk", &show.has_shrunk_cells);
   ImGui::Checkbox("Influence of the selection", &show.has_influence);
-  ImGui::SetNextItemWidth(-1);
-  ImGui::SliderInt("##refined", &show.refined_levels, 0, 3,
-                   show.refined_levels == 0 ? "refined: off" : "refined %d times");
+  if (session.elements().n_levels == 1) {
+    ImGui::SetNextItemWidth(-1);
+    ImGui::SliderInt("##refined", &show.refined_levels, 0, 3,
+                     show.refined_levels == 0 ? "refined: off" : "refined %d times");
+  }
   draw_cut(show);
   if (session.elements().n_levels > 1) {
     draw_levels(session.elements().n_levels, show);

@@ -100,6 +100,30 @@ void draw_handling(const Session& session, std::vector<Action>& actions) {
   }
 }
 
+/// What else the model's influence says is kept.
+void draw_strength(const Session& session, const std::string& model, std::vector<Action>& actions) {
+  const auto found = session.scene().influences.find(model);
+  const ModelInfluence now =
+      found == session.scene().influences.end() ? ModelInfluence() : *found->second;
+  auto strength = static_cast<float>(now.strength);
+  ImGui::PushID(model.c_str());
+  ImGui::SetNextItemWidth(-1);
+  ImGui::SliderFloat("##strength", &strength, 0, 1, "strength %.2f");
+  if (ImGui::IsItemDeactivatedAfterEdit()) {
+    Arguments arguments({{"model", model}, {"strength", static_cast<double>(strength)}});
+    if (!now.only.empty()) {
+      arguments.set("only", now.only);
+    }
+    if (!now.weights.empty()) {
+      arguments.set("weights", now.weights);
+    }
+    actions.emplace_back([arguments](Session& target) {
+      target.apply({"set influence", arguments});
+    });
+  }
+  ImGui::PopID();
+}
+
 }  // namespace
 
 void draw_tool_panel(const Session& session, std::vector<Action>& actions) {
@@ -156,6 +180,9 @@ void draw_object_panel(const Session& session, std::vector<Action>& actions) {
     ImGui::TextUnformatted(file_name(name).c_str());
     ImGui::TextColored(kFaint, "  %zu points, %zu faces", model.points().size(),
                        model.faces().n_rows());
+    if (session.mode() == Mode::Pose) {
+      draw_strength(session, name, actions);
+    }
     for (const auto& [names, bound] : scene.bound) {
       if (names.first == name) {
         const StatusCounts counts = bound.binding->counts();

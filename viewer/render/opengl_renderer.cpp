@@ -39,6 +39,8 @@ struct GpuItem {
   GlBuffer positions;
   GlBuffer normals_or_colors;
   GlBuffer indices;
+  std::optional<GlBuffer> places;
+  std::optional<GlTexture> texture;
 };
 
 /// The part of a picture that is drawn at once, in pixels from its bottom left corner.
@@ -65,6 +67,18 @@ void attach(GLuint index, const GlBuffer& buffer, GLsizei n_skipped, GLuint divi
   glVertexAttribPointer(index, 3, GL_FLOAT, GL_FALSE, n_interleaved * size,
                         reinterpret_cast<const void*>(skipped));  // NOLINT: an offset by tradition
   glVertexAttribDivisor(index, divisor);
+}
+
+/// A picture that repeats, smooth from near and far.
+void store(const Picture& picture, const GlTexture& texture) {
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, picture.width, picture.height, 0, GL_RGBA,
+               GL_UNSIGNED_BYTE, picture.pixels.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glBindTexture(GL_TEXTURE_2D, 0);
 }
 
 /// Enlarges a tile of the picture to all of clip space.
@@ -120,6 +134,15 @@ void OpenglRenderer::do_add(ItemId id, const TriangleMesh& mesh) {
   glBindVertexArray(item.layout.id());
   attach(kPositionAttribute, item.positions, 0, 0, 1);
   attach(kNormalAttribute, item.normals_or_colors, 0, 0, 1);
+  if (mesh.texture) {
+    item.places.emplace();
+    upload<glm::vec2>(*item.places, mesh.places);
+    glBindBuffer(GL_ARRAY_BUFFER, item.places->id());
+    glEnableVertexAttribArray(kPlaceAttribute);
+    glVertexAttribPointer(kPlaceAttribute, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
+    item.texture.emplace();
+    store(*mesh.texture, *item.texture);
+  }
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, item.indices.id());
   glBindVertexArray(0);
   check_opengl("store a mesh");
@@ -295,6 +318,9 @@ void OpenglRenderer::draw_meshes(const Shot& shot, bool is_opaque) const {
       shaders_.mesh.set("color", item.color);
       shaders_.mesh.set("opacity", item.opacity);
       shaders_.mesh.set("unit", item.unit);
+      shaders_.mesh.set("has_texture", item.texture ? 1.F : 0.F);
+      glActiveTexture(GL_TEXTURE0);
+      glBindTexture(GL_TEXTURE_2D, item.texture ? item.texture->id() : 0);
       glBindVertexArray(item.layout.id());
       glDrawElements(GL_TRIANGLES, item.n, GL_UNSIGNED_INT, nullptr);
       if (item.has_wireframe) {
@@ -308,6 +334,7 @@ void OpenglRenderer::draw_meshes(const Shot& shot, bool is_opaque) const {
 void OpenglRenderer::draw_wireframe(const GpuItem& item) const {
   constexpr float kDarker = 0.3F;
   shaders_.mesh.set("color", kDarker * item.color);
+  shaders_.mesh.set("has_texture", 0.F);
   glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
   glEnable(GL_POLYGON_OFFSET_LINE);
   glPolygonOffset(-1, -1);

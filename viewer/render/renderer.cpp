@@ -42,6 +42,13 @@ void check_pixels(float value, const std::string& what) {
 
 void check(const TriangleMesh& mesh) {
   check_count(mesh.normals.size(), mesh.positions.size(), "normals");
+  check_count(mesh.places.size(), mesh.texture ? mesh.positions.size() : mesh.places.size(),
+              "places in the texture");
+  for (const glm::vec2& place : mesh.places) {
+    if (!std::isfinite(place.x) || !std::isfinite(place.y)) {
+      fail("a place in the texture is not finite");
+    }
+  }
   check_finite(mesh.positions, "position");
   check_finite(mesh.normals, "normal");
   check_fraction(mesh.opacity, "opacity");
