@@ -51,8 +51,8 @@ void parse_size(const std::string& text, int& width, int& height) {
   height = static_cast<int>(h);
 }
 
-/// Where the journal is kept while the program runs; "" if there is no such place.
-std::string autosave_path() {
+/// Where the program keeps a file from session to session; "" if there is no such place.
+std::string state_path(const std::string& name) {
   const char* state = std::getenv("XDG_STATE_HOME");
   const char* home = std::getenv("HOME");
   if (state == nullptr && home == nullptr) {
@@ -64,7 +64,7 @@ std::string autosave_path() {
       "espalier";
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
-  return failure ? "" : (folder / "journal").string();
+  return failure ? "" : (folder / name).string();
 }
 
 void run(const Options& options) {
@@ -77,7 +77,8 @@ void run(const Options& options) {
               run_headless({options.files, script, options.script, width, height}));
     return;
   }
-  run_window({options.files, script, width, height, autosave_path(), options.recovers});
+  run_window({options.files, script, width, height, state_path("journal"), state_path("recent"),
+              options.recovers});
 }
 
 }  // namespace

@@ -1,9 +1,13 @@
 /// Operations on a lattice's points, and what they do to models.
 
+#include <algorithm>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "deform/injectivity/injectivity.h"
+#include "deform/model/point_selection.h"
 #include "deform/scene/operations.h"
 #include "lattice/core/error.h"
 #include "lattice/topology/defect.h"
@@ -59,13 +63,34 @@ std::vector<glm::dvec3> moved_points(const Arguments& arguments,
   return moved;
 }
 
+/// A grid that goes on being one; what it does at rest is not affine any more.
+template <class GridLattice>
+Scene with_rest(const Scene& scene, const std::string& name, GridLattice lattice,
+                const Arguments& arguments) {
+  lattice.rest = moved_points(arguments, lattice.rest);
+  require_valid(lattice);
+  const auto volume = std::make_shared<const Volume>(freeze(lattice));
+  const auto differs = [&](double weight) { return weight != volume->weights()[0]; };
+  if (std::none_of(volume->weights().begin(), volume->weights().end(), differs)) {
+    static_cast<void>(InjectivityCheck(volume));  // throws where a patch is turned inside out
+  }
+  return with_lattice(scene, name, std::move(lattice));
+}
+
 /// A lattice at rest that moves must be a valid one where it goes; a pose may fold.
 Scene move_points(const Scene& scene, const Arguments& arguments, const Progress& progress) {
   const std::string& name = arguments.text("lattice");
   if (arguments.text("shape") == "pose") {
     return with_pose(scene, name, moved_points(arguments, lattice_in(scene, name).posed_points()));
   }
-  SubdivisionLattice moved = subdivision_lattice_in(scene, name, "moving points at rest");
+  const Lattice& lattice = lattice_in(scene, name);
+  if (const auto* tensor = lattice.as<TensorLattice>()) {
+    return with_rest(scene, name, *tensor, arguments);
+  }
+  if (const auto* thb = lattice.as<ThbLattice>()) {
+    return with_rest(scene, name, *thb, arguments);
+  }
+  SubdivisionLattice moved = *lattice.as<SubdivisionLattice>();
   moved.rest = moved_points(arguments, moved.rest);
   throw_if_defective(find_geometric_defects(*moved.complex, moved.rest, progress));
   return with_lattice(scene, name, std::move(moved));
@@ -76,6 +101,35 @@ Scene set_pose(const Scene& scene, const Arguments& arguments, const Progress& /
   return with_pose(scene, name,
                    arguments.has("pose") ? pose_in(scene, arguments.text("pose")).points
                                          : std::vector<glm::dvec3>());
+}
+
+Scene set_influence(const Scene& scene, const Arguments& arguments, const Progress& /*progress*/) {
+  const std::string& name = arguments.text("model");
+  const Model& model = model_in(scene, name);
+  ModelInfluence asked;
+  asked.strength = arguments.number("strength");
+  asked.only = arguments.texts("only");
+  asked.weights = arguments.has("weights") ? arguments.text("weights") : "";
+  asked.influence = {asked.strength, point_weights(model, asked.only, asked.weights)};
+  Scene result = scene;
+  result.influences.insert_or_assign(name,
+                                     std::make_shared<const ModelInfluence>(std::move(asked)));
+  return result;
+}
+
+/// The arguments of `deform` for a model's influence, if it has one.
+void add_influence(const Scene& scene, const std::string& model, Arguments& arguments) {
+  const auto found = scene.influences.find(model);
+  if (found == scene.influences.end()) {
+    return;
+  }
+  arguments.set("strength", found->second->strength);
+  if (!found->second->only.empty()) {
+    arguments.set("only", found->second->only);
+  }
+  if (!found->second->weights.empty()) {
+    arguments.set("weights", found->second->weights);
+  }
 }
 
 /// Every lattice that a model is bound to moves it; the scene keeps the model at rest.
@@ -92,13 +146,13 @@ Scene save_deformed(const Scene& scene, const Arguments& arguments, const Progre
     throw ParameterError(model + " is not bound to a lattice: nothing deforms it");
   }
   const BoundModel& bound = scene.bound.at({model, lattices.front()});
-  const Scene deformed = apply(operation_named("deform"), scene,
-                               Arguments({{"model", model},
-                                          {"lattice", lattices},
-                                          {"freeze", bound.freeze},
-                                          {"outside", bound.outside},
-                                          {"output", kResult}}),
-                               progress);
+  Arguments how({{"model", model},
+                 {"lattice", lattices},
+                 {"freeze", bound.freeze},
+                 {"outside", bound.outside},
+                 {"output", kResult}});
+  add_influence(scene, model, how);
+  const Scene deformed = apply(operation_named("deform"), scene, how, progress);
   static_cast<void>(apply(operation_named("save"), deformed,
                           Arguments({{"name", kResult}, {"path", arguments.text("path")}}),
                           progress));
@@ -131,6 +185,21 @@ std::vector<Operation> pose_operations() {
        "Bring a lattice back to rest, or into a pose",
        {lattice, {.name = "pose", .type = Type::Pose, .help = "the pose (default: at rest)"}},
        set_pose},
+      {"set influence",
+       "Say how much of what its lattices do a model follows",
+       {{.name = "model", .type = Type::Model, .help = "the model", .is_required = true},
+        {.name = "strength",
+         .type = Type::Number,
+         .help = "so many times the motion (default 1)",
+         .fallback = Value(1.0)},
+        {.name = "only",
+         .type = Type::Text,
+         .help = "only the points of this group or object, or of @FILE, a list of indices",
+         .is_list = true},
+        {.name = "weights",
+         .type = Type::Path,
+         .help = "a file with a weight from 0 to 1 for every point, one a line"}},
+       set_influence},
       {"save deformed",
        "Write a model as the lattices it is bound to deform it",
        {{.name = "model", .type = Type::Model, .help = "the model", .is_required = true},

@@ -49,6 +49,7 @@ const Pose& pose_in(const Scene& scene, const std::string& name) {
 Scene with_model(Scene scene, const std::string& name, Model model) {
   std::erase_if(scene.bound, [&](const auto& entry) { return entry.first.first == name; });
   scene.torn_faces.erase(name);
+  scene.influences.erase(name);
   scene.models.insert_or_assign(name, std::move(model));
   return scene;
 }

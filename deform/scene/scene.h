@@ -13,6 +13,7 @@
 
 #include "deform/embed/crossings.h"
 #include "deform/embed/embed.h"
+#include "deform/evaluate/combine.h"
 #include "deform/model/model.h"
 #include "lattice/io/lattice.h"
 #include "lattice/volume/volume.h"
@@ -45,13 +46,23 @@ struct BoundModel {
   Lock lock = {};
 };
 
+/// How much of what its lattices do a model follows, as `deform` takes it.
+struct ModelInfluence {
+  double strength = 1;
+  std::vector<std::string> only;  ///< groups, or lists of indices
+  std::string weights;            ///< a file, or none
+  Influence influence;            ///< what they come to: of the model's points
+};
+
 /// Copies are cheap: they share everything that did not change. Names are those of the files, or
 /// any others.
 struct Scene {
   std::map<std::string, Model> models;
   std::map<std::string, Lattice> lattices;
   std::map<std::string, std::shared_ptr<const Pose>> poses;
-  std::map<std::pair<std::string, std::string>, BoundModel> bound;  ///< by (model, lattice)
+  std::map<std::pair<std::string, std::string>, BoundModel> bound;          ///< by (model, lattice)
+  std::map<std::string, std::shared_ptr<const ModelInfluence>> influences;  ///< by model; absent:
+                                                                            ///< all of it
   /// By model that a lattice deformed: how many faces it tore where they leave it; absent: none.
   std::map<std::string, std::size_t> torn_faces;
 };

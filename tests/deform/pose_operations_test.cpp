@@ -50,9 +50,47 @@ TEST(PoseOperations, moving_points_at_rest_unties_the_models_and_refuses_an_inva
   EXPECT_NE(refusal("move points lattice=box points=0 by=9,0,0 shape=rest"), "no error");
 }
 
+TEST(PoseOperations, control_points_of_grids_are_moved_at_rest_too) {
+  for (const char* line : {"new bspline output=grid", "new nurbs output=grid",
+                           "new bezier output=grid", "new thb output=grid"}) {
+    Scene scene = done(bound_scene(), line);
+    scene = done(scene, "bind model=m lattice=grid");
+    const Scene after = done(scene, "move points lattice=grid points=0 by=-.1,0,0 shape=rest");
+    const glm::dvec3 before = lattice_in(scene, "grid").rest_points()[0];
+    EXPECT_EQ(lattice_in(after, "grid").rest_points()[0], before + glm::dvec3(-.1, 0, 0));
+    EXPECT_EQ(lattice_in(after, "grid").posed_points()[0], before + glm::dvec3(-.1, 0, 0));
+    EXPECT_EQ(after.bound.size(), 1u);  // to the box
+  }
+}
+
+TEST(PoseOperations, a_grid_at_rest_is_not_turned_inside_out) {
+  const Scene scene = done({}, "new bezier output=grid counts=2,2,2");
+  const std::string line = "move points lattice=grid points=1,3,5,7 by=-2,0,0 shape=rest";
+  EXPECT_NO_THROW((void)done(scene, line));  // as a whole it may be a mirror image
+  const Scene spline = done({}, "new bspline output=grid counts=4,2,2 degree=1,1,1");
+  EXPECT_THROW(
+      (void)done(spline, "move points lattice=grid points=2,6,10,14 by=-0.5,0,0 shape=rest"),
+      LatticeError);
+}
+
 TEST(PoseOperations, set_pose_goes_back_to_rest) {
   const Scene posed = done(bound_scene(), "move points lattice=box points=0 by=1,1,1");
   EXPECT_TRUE(subdivision_lattice_in(done(posed, "set pose lattice=box"), "box").pose.empty());
+}
+
+TEST(PoseOperations, a_models_influence_says_how_much_of_the_motion_is_saved) {
+  std::string all = "0";
+  for (int i = 1; i < 27; ++i) {
+    all += "," + std::to_string(i);
+  }
+  Scene scene = done(bound_scene(), "move points lattice=box points=" + all + " by=1,0,0");
+  scene = done(scene, "set influence model=m strength=0.25");
+  const std::string path = ::testing::TempDir() + "/espalier_influence.obj";
+  (void)done(scene, "save deformed model=m path=" + path);
+  EXPECT_EQ(read_file(path), "v 1.25 1 1\n");
+  EXPECT_EQ(with_model(scene, "m", model_in(scene, "m")).influences.size(), 0u);
+  EXPECT_NE(refusal("set influence model=m only=nothing"), "no error");
+  EXPECT_NE(refusal("set influence model=none"), "no error");
 }
 
 TEST(PoseOperations, save_deformed_writes_what_the_bound_lattices_do_and_leaves_the_scene) {

@@ -54,6 +54,22 @@ TEST(MeshDrawing, gives_a_box_flat_faces) {
   }
 }
 
+TEST(MeshDrawing, draws_the_same_with_its_vertices_in_another_order) {
+  const Tube tube(12);
+  const MeshDrawing drawing(tube.points, tube.faces);
+  std::vector<std::uint32_t> order(drawing.n_vertices());
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    order[i] = (7 * i + 3) % static_cast<std::uint32_t>(order.size());
+  }
+  const MeshDrawing reordered = drawing.reordered(order);
+  const TriangleMesh before = drawing.triangle_mesh(tube.points);
+  const TriangleMesh after = reordered.triangle_mesh(tube.points);
+  for (std::size_t i = 0; i < before.indices.size(); ++i) {
+    EXPECT_EQ(after.positions[after.indices[i]], before.positions[before.indices[i]]);
+    EXPECT_EQ(after.normals[after.indices[i]], before.normals[before.indices[i]]);
+  }
+}
+
 TEST(MeshDrawing, gives_a_box_one_normal_a_corner_when_nothing_is_a_crease) {
   const TriangleMesh mesh = draw_mesh(kCubePoints, kCubeFaces, {.crease_angle = 180});
   ASSERT_EQ(mesh.positions.size(), 8u);

@@ -2,15 +2,15 @@
 
 /// Keeps what a renderer draws in step with a session.
 
+#include <cstdint>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "viewer/interact/bent_models.h"
+#include "viewer/app/lattice_shapes.h"
+#include "viewer/app/shown_item.h"
+#include "viewer/interact/influence_heat.h"
 #include "viewer/interact/session.h"
-#include "viewer/render/mesh_drawing.h"
 #include "viewer/render/renderer.h"
 
 namespace espalier::viewer {
@@ -25,28 +25,26 @@ class Display {
  private:
   struct ShownModel {
     Model model;
-    MeshDrawing drawing;
+    DrawingFrame frame;
     ItemId item;
-    std::vector<Bend> bends;           // what the item shows
-    std::vector<glm::vec3> positions;  // as uploaded
-    std::vector<glm::vec3> normals;
+    std::uint64_t revision;
+    int arrangement;
+    bool has_wireframe;
   };
-  void update_frame(const Session& session);
   void update_models(const Session& session);
-  void update_model(const Session& session, const std::string& name, ShownModel& shown);
+  void add_model(const Session& session, const std::string& name, const BentModel& bent);
   void update_lattice(const Session& session);
-  void update_marks(const Session& session);
+  void update_shapes(const Session& session);
+  void update_influence(const Session& session);
 
   Renderer& renderer_;
-  DrawingFrame frame_;
   std::map<std::string, ShownModel> models_;
-  std::vector<ItemId> lattice_items_;  // lines, then points
-  std::vector<ItemId> mark_items_;     // what is bound, and what is to come
-  std::string lattice_key_;            // what lattice_items_ show, but for where the points are
-  std::shared_ptr<const CellComplex> complex_;
-  std::vector<glm::dvec3> lattice_points_;
-  std::vector<glm::dvec3> ghost_;
-  std::shared_ptr<const Binding> binding_;
+  ShownMarks<LineSet> cage_, rest_, ghost_, gizmo_, refined_lines_;
+  ShownMarks<PointSet> controls_, model_marks_, influence_marks_;
+  std::optional<InfluenceHeat> heat_;
+  ShownMesh surface_mesh_, cell_mesh_, selected_cell_mesh_;
+  std::optional<FollowingSurface> surface_;
+  std::optional<RefinedNet> refined_;
 };
 
 }  // namespace espalier::viewer

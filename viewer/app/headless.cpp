@@ -55,6 +55,15 @@ void draw_settled(Viewer& viewer) {
   viewer.draw(kFrameSeconds);
 }
 
+/// As with a real mouse, the panels see it before its button goes down.
+void handle(const Event& event, Viewer& viewer) {
+  if (const auto* press = std::get_if<MousePress>(&event)) {
+    viewer.handle(MouseMove{press->at});
+    draw_settled(viewer);
+  }
+  viewer.handle(event);
+}
+
 void run_script(const HeadlessOptions& options, Viewer& viewer) {
   std::istringstream lines(options.script);
   std::string line;
@@ -67,7 +76,7 @@ void run_script(const HeadlessOptions& options, Viewer& viewer) {
     }
     for (const ScriptStep& step : steps) {
       if (const auto* event = std::get_if<Event>(&step)) {
-        viewer.handle(*event);
+        handle(*event, viewer);
       } else if (!viewer.session().apply(std::get<OperationCall>(step))) {
         throw FileError(options.script_path, number, viewer.session().messages().back());
       }

@@ -1,8 +1,10 @@
 #include "viewer/app/viewer.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
+#include "lattice/core/error.h"
 #include "viewer/render/opengl_renderer.h"
 
 namespace espalier::viewer {
@@ -20,9 +22,11 @@ void Viewer::handle(const Event& event) {
     shows = !shows;
     return;
   }
-  const bool has_text_field = state_.shows_files || state_.shows_palette;
+  const bool has_text_field = state_.shows_files || state_.shows_palette || state_.form;
   if (chord == "escape" && (has_text_field || state_.shows_help)) {
     state_.shows_help = state_.shows_files = state_.shows_palette = false;
+    state_.form.reset();
+    session_.end_preview();
     return;
   }
   if (chord == "ctrl+q") {
@@ -40,9 +44,18 @@ void Viewer::handle(const Event& event) {
 
 void Viewer::open(const std::string& path) {
   if (session_.open(path)) {
-    std::erase(state_.recent, path);
-    state_.recent.insert(state_.recent.begin(), path);
+    remember(path);
   }
+}
+
+/// Files are remembered where they are, wherever the program runs next.
+void Viewer::remember(const std::string& path) {
+  constexpr std::size_t kMost = 12;
+  std::error_code failure;
+  const std::string absolute = std::filesystem::absolute(path, failure).string();
+  std::erase(state_.recent, absolute);
+  state_.recent.insert(state_.recent.begin(), absolute);
+  state_.recent.resize(std::min(state_.recent.size(), kMost));
 }
 
 void Viewer::draw(double seconds) {
@@ -52,7 +65,20 @@ void Viewer::draw(double seconds) {
   for (const Action& action : draw_panels(session_, state_)) {
     action(session_);
   }
-  display_.update(session_);
+  // What could not be saved is not lost.
+  if (std::exchange(state_.saves_and_quits, false)) {
+    state_.quits = !session_.journal().is_changed();
+  }
+  const std::string opened = std::exchange(state_.opened, "");
+  if (session_.scene().models.contains(opened) || session_.scene().lattices.contains(opened)) {
+    remember(opened);
+  }
+  try {
+    display_.update(session_);
+  } catch (const Error& error) {
+    session_.say(error.what());
+    session_.set_show(Show());  // what cannot be shown is not asked for again
+  }
   renderer_->draw(view.camera, view.width, view.height);
   gui_.end();
 }

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "viewer/app/display.h"
 #include "viewer/app/gui.h"
@@ -30,8 +31,13 @@ class Viewer {
   [[nodiscard]] bool may_quit() const { return state_.quits; }
 
   [[nodiscard]] Session& session() { return session_; }
+  /// Files that were opened, the last one first, also in earlier sessions.
+  [[nodiscard]] const std::vector<std::string>& recent() const { return state_.recent; }
+  void set_recent(std::vector<std::string> files) { state_.recent = std::move(files); }
 
  private:
+  void remember(const std::string& path);
+
   std::unique_ptr<Renderer> renderer_;
   Session session_;
   Display display_;

@@ -8,6 +8,7 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -142,9 +143,7 @@ class Window {
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int held) {
       of(w).on_button(button, action, held);
     });
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) {
-      of(w).events_.emplace_back(MouseMove{of(w).mouse()});
-    });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { of(w).on_move(); });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double steps) {
       of(w).events_.emplace_back(Scroll{steps});
     });
@@ -164,6 +163,14 @@ class Window {
                               (has_shift ? "shift+" : "") +
                               ((held & GLFW_MOD_ALT) != 0 ? "alt+" : "") + name;
     events_.emplace_back(KeyPress{chord});
+  }
+
+  /// Only where the mouse is at the end of a frame counts.
+  void on_move() {
+    if (!events_.empty() && std::holds_alternative<MouseMove>(events_.back())) {
+      events_.pop_back();
+    }
+    events_.emplace_back(MouseMove{mouse()});
   }
 
   void on_button(int button, int action, int held) {
@@ -204,6 +211,16 @@ double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
+/// The lines of a file; none if it cannot be read.
+std::vector<std::string> lines_of(const std::string& path) {
+  std::ifstream file(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
 /// The loop's state.
 class Program {
  public:
@@ -227,6 +244,7 @@ class Program {
  private:
   void begin() {
     viewer_.handle(window_.size());
+    viewer_.set_recent(lines_of(options_.recent));
     if (options_.recovers && !options_.autosave.empty()) {
       viewer_.session().recover(read_file(options_.autosave));
     }
@@ -263,6 +281,23 @@ class Program {
     }
     draw();
     autosave();
+    keep_recent();
+  }
+
+  void keep_recent() {
+    if (options_.recent.empty() || viewer_.recent() == kept_recent_) {
+      return;
+    }
+    kept_recent_ = viewer_.recent();
+    std::string text;
+    for (const std::string& file : kept_recent_) {
+      text += file + "\n";
+    }
+    try {
+      write_file(options_.recent, text);
+    } catch (const Error& error) {
+      viewer_.session().say(error.what());
+    }
   }
 
   void draw() {
@@ -312,6 +347,7 @@ class Program {
   Clock::time_point drawn_ = task_began_;
   double frame_seconds_ = 0;
   std::string saved_;
+  std::vector<std::string> kept_recent_;
 };
 
 }  // namespace

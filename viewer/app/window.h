@@ -13,6 +13,7 @@ struct WindowOptions {
   int width = 1280;
   int height = 800;
   std::string autosave;   ///< where the journal is kept while the program runs; "": nowhere
+  std::string recent;     ///< where the files opened are remembered; "": nowhere
   bool recovers = false;  ///< begins with what autosave holds
 };
 

@@ -1,31 +1,130 @@
 #include "viewer/interact/bent_models.h"
 
-#include "deform/evaluate/combine.h"
+#include <algorithm>
+
+#include "deform/scene/pose.h"
+#include "lattice/tensor/tensor_lattice.h"
 
 namespace espalier::viewer {
+namespace {
 
-std::vector<Bend> bends_of(const Session& session, const std::string& model) {
-  std::vector<Bend> bends;
-  for (const auto& [names, bound] : session.scene().bound) {
-    if (session.mode() != Mode::Pose || names.first != model) {
-      continue;
-    }
-    const auto posed = lattice_in(session.scene(), names.second).posed_points();
-    bends.push_back({bound.volume, bound.binding,
-                     names.second == session.lattice()
-                         ? session.shown_points()
-                         : std::vector<glm::dvec3>(posed.begin(), posed.end())});
-  }
-  return bends;
+Bend bend_of(const BoundModel& bound, const Lattice& lattice) {
+  ControlPose pose = own_pose(lattice);
+  return {bound.volume, bound.binding, std::move(pose.points),
+          point_weights(*bound.volume, pose.weights)};
 }
 
-std::vector<glm::dvec3> bent_points(std::span<const glm::dvec3> rest, std::span<const Bend> bends) {
-  std::vector<LatticeMotion> motions;
-  for (const Bend& bend : bends) {
-    motions.push_back({bend.volume, bend.binding, bend.volume->displacements(bend.controls)});
+}  // namespace
+
+void BentModels::update(const Scene& scene, const DrawingFrame& frame, bool is_bent) {
+  drag_.reset();
+  const bool is_same_frame = frame.origin == frame_.origin;
+  frame_ = frame;
+  std::erase_if(models_, [&](const auto& entry) {
+    const auto found = scene.models.find(entry.first);
+    return !is_same_frame || found == scene.models.end() ||
+           found->second.bytes().data() != entry.second.model().bytes().data();
+  });
+  bends_.clear();
+  for (const auto& [names, bound] : scene.bound) {
+    if (is_bent) {
+      Bends& bends = bends_[names.first];
+      bends.bends.push_back(bend_of(bound, lattice_in(scene, names.second)));
+      bends.lattices.push_back(names.second);
+    }
   }
-  return motions.empty() ? std::vector<glm::dvec3>(rest.begin(), rest.end())
-                         : combined_points(rest, motions);
+  for (const auto& [name, model] : scene.models) {
+    if (!models_.contains(name)) {
+      // Revisions of models that took one another's place never meet.
+      models_.emplace(name, BentModel(model, frame, ++n_made_ << 32));
+    }
+    const auto influence = scene.influences.find(name);
+    models_.at(name).set_influence(influence == scene.influences.end() ? nullptr
+                                                                       : influence->second);
+    models_.at(name).bend(bends_[name].bends);
+  }
+}
+
+std::optional<std::size_t> BentModels::dragged(const std::string& model) const {
+  const std::vector<std::string>& lattices = bends_.at(model).lattices;
+  const auto found = std::find(lattices.begin(), lattices.end(), drag_->lattice);
+  return found == lattices.end()
+             ? std::nullopt
+             : std::optional(static_cast<std::size_t>(found - lattices.begin()));
+}
+
+void BentModels::begin_drag(ControlDrag drag) {
+  cancel_drag();
+  drag_ = std::move(drag);
+  for (auto& [name, model] : models_) {
+    const auto bend = dragged(name);
+    // Weights of its own make a pose rational, which no drag knows.
+    drag_->is_fast &= !bend || bends_[name].bends[*bend].pose_weights.empty();
+  }
+  for (auto& [name, model] : models_) {
+    const auto bend = dragged(name);
+    if (bend && drag_->is_fast) {
+      drag_->plan.dragged = *bend;
+      model.begin_drag(drag_->plan);
+    } else if (bend) {
+      model.begin_evaluation();
+    }
+  }
+}
+
+double BentModels::follow(const DragMotion& motion, std::span<const glm::dvec3> target,
+                          bool stops_at_folds) {
+  return drag_->is_fast ? follow_fast(motion, stops_at_folds)
+                        : follow_slowly(target, stops_at_folds);
+}
+
+double BentModels::follow_fast(const DragMotion& motion, bool stops_at_folds) {
+  double fraction = 1;
+  for (const auto& [name, model] : models_) {
+    if (stops_at_folds && dragged(name)) {
+      fraction = std::min(fraction, model.safe_fraction(motion));
+    }
+  }
+  for (auto& [name, model] : models_) {
+    if (dragged(name)) {
+      model.follow(fraction < 1 ? motion.part(fraction) : motion, !stops_at_folds);
+    }
+  }
+  return fraction;
+}
+
+/// Looks for a stop only where something is folded at the end of the way.
+double BentModels::follow_slowly(std::span<const glm::dvec3> target, bool stops_at_folds) {
+  double fraction = 1;
+  for (auto& [name, model] : models_) {
+    const auto bend = dragged(name);
+    // Of a pose with weights of its own no way to the fold is known.
+    if (bend && model.evaluate(*bend, target) && stops_at_folds &&
+        bends_[name].bends[*bend].pose_weights.empty()) {
+      fraction = std::min(fraction, model.safe_fraction(bends_[name].bends, *bend, target));
+    }
+  }
+  if (fraction < 1) {
+    std::vector<glm::dvec3> controls(target.begin(), target.end());
+    for (std::size_t i = 0; i < controls.size(); ++i) {
+      controls[i] = drag_->start[i] + fraction * (controls[i] - drag_->start[i]);
+    }
+    for (auto& [name, model] : models_) {
+      if (const auto bend = dragged(name)) {
+        model.evaluate(*bend, controls);
+      }
+    }
+  }
+  return fraction;
+}
+
+void BentModels::cancel_drag() {
+  if (drag_) {
+    drag_.reset();
+    for (auto& [name, model] : models_) {
+      model.bend(bends_[name].bends);
+    }
+  }
 }
 
 }  // namespace espalier::viewer

@@ -13,6 +13,10 @@ void Session::begin_extrusion() {
     say("Cells are extruded in Lattice mode: press ctrl+1.");
     return;
   }
+  if (!lattice_.empty() && lattice_in(scene(), lattice_).as<SubdivisionLattice>() == nullptr) {
+    say("Cells are extruded from subdivision lattices; the form Refine makes this one finer.");
+    return;
+  }
   set_element_kind(ElementKind::Face);
   std::erase_if(selection_, [&](std::int32_t face) {
     return !elements_.is_outer[static_cast<std::size_t>(face)];
@@ -22,6 +26,9 @@ void Session::begin_extrusion() {
     return;
   }
   begin_transform(TransformKind::Extrude);
+  if (!transform_) {
+    return;
+  }
   glm::dvec3 sum(0.0);
   const auto points = points_of(scene(), lattice_, Shape::Rest);
   for (const std::int32_t face : selection_) {

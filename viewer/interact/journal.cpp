@@ -10,9 +10,6 @@ namespace espalier::viewer {
 
 void Journal::apply(const OperationCall& call, const Progress& progress) {
   Scene next = espalier::apply(call, scene(), progress);
-  for (const auto& [name, lattice] : next.lattices) {
-    static_cast<void>(subdivision_lattice_in(next, name, "the viewer"));
-  }
   Step step{text_of(call), operation_named(call.operation).changes_scene, std::move(next)};
   if (n_saved_ > n_done_) {
     n_saved_ = std::string::npos;  // what was saved can no longer be reached

@@ -20,8 +20,8 @@ class Journal {
     return n_done_ == 0 ? first_ : steps_[n_done_ - 1].scene;
   }
 
-  /// Does an operation; what was undone is forgotten. Throws as the operation, and ParameterError
-  /// if it brings a lattice that is no subdivision lattice; changes nothing then.
+  /// Does an operation; what was undone is forgotten. Throws as the operation and changes nothing
+  /// then.
   void apply(const OperationCall& call, const Progress& progress = {});
   /// Back to before the last operation that changed the scene; false if there is none.
   bool undo();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lattice/topology/face_triangles.h"
+#include "viewer/interact/grid_elements.h"
 
 namespace espalier::viewer {
 namespace {
@@ -14,6 +15,14 @@ std::vector<std::int32_t> values_of(const Ids& ids) {
     values.push_back(id.value);
   }
   return values;
+}
+
+std::vector<std::int32_t> faces_of(std::span<const HalfFaceId> half_faces) {
+  std::vector<std::int32_t> faces;
+  for (const HalfFaceId half_face : half_faces) {
+    faces.push_back(half_face.face().value);
+  }
+  return faces;
 }
 
 bool share_a_value(std::span<const std::int32_t> a, std::span<const std::int32_t> b) {
@@ -37,6 +46,28 @@ std::int32_t next_edge(const LatticeElements& lattice, std::int32_t edge, std::i
     next = is_candidate ? static_cast<std::int32_t>(other) : next;
   }
   return next;
+}
+
+LatticeElements subdivision_elements(const SubdivisionLattice& lattice) {
+  const CellComplex& complex = *lattice.complex;
+  LatticeElements elements;
+  elements.n_vertices = static_cast<std::int32_t>(complex.n_vertices());
+  elements.levels.assign(complex.n_vertices(), 0);
+  for (const EdgeId edge : complex.edges()) {
+    elements.edges.push_back(values_of(complex.vertices(edge)));
+    elements.edge_faces.push_back(faces_of(complex.half_faces(edge)));
+  }
+  for (const FaceId face : complex.faces()) {
+    elements.faces.push_back(values_of(complex.vertices(face)));
+    elements.is_outer.push_back(complex.is_boundary(face));
+  }
+  for (const CellId cell : complex.cells()) {
+    elements.cells.push_back(values_of(complex.vertices(cell)));
+    elements.cell_faces.push_back(faces_of(complex.half_faces(cell)));
+  }
+  elements.edge_sharpness = lattice.sharpness.edges.values();
+  elements.vertex_sharpness = lattice.sharpness.vertices.values();
+  return elements;
 }
 
 }  // namespace
@@ -111,26 +142,40 @@ Selection LatticeElements::loop(std::int32_t edge) const {
   return loop;
 }
 
-LatticeElements elements_of(const Scene& scene, const std::string& lattice) {
-  const CellComplex& complex = *subdivision_lattice_in(scene, lattice, "the viewer").complex;
-  LatticeElements elements;
-  elements.n_vertices = static_cast<std::int32_t>(complex.n_vertices());
-  for (const EdgeId edge : complex.edges()) {
-    elements.edges.push_back(values_of(complex.vertices(edge)));
-    std::vector<std::int32_t> faces;
-    for (const HalfFaceId half_face : complex.half_faces(edge)) {
-      faces.push_back(half_face.face().value);
-    }
-    elements.edge_faces.push_back(faces);
+std::vector<bool> LatticeElements::outer_edges() const {
+  std::vector<bool> is_outer_edge;
+  for (std::size_t edge = 0; edge < edges.n_rows(); ++edge) {
+    const auto at_edge = edge_faces[edge];
+    is_outer_edge.push_back(at_edge.empty() ||
+                            std::any_of(at_edge.begin(), at_edge.end(), [&](std::int32_t face) {
+                              return is_outer[static_cast<std::size_t>(face)];
+                            }));
   }
-  for (const FaceId face : complex.faces()) {
-    elements.faces.push_back(values_of(complex.vertices(face)));
-    elements.is_outer.push_back(complex.is_boundary(face));
+  return is_outer_edge;
+}
+
+bool LatticeElements::is_same_net(const LatticeElements& other) const {
+  const auto is_equal = [](const auto& a, const auto& b) {
+    return a.n_rows() == b.n_rows() && std::ranges::equal(a.values(), b.values());
+  };
+  return n_vertices == other.n_vertices && is_equal(edges, other.edges) &&
+         is_equal(faces, other.faces) && is_equal(cells, other.cells);
+}
+
+LatticeElements elements_of(const Lattice& lattice) {
+  const auto* subdivision = lattice.as<SubdivisionLattice>();
+  if (subdivision != nullptr) {
+    return subdivision_elements(*subdivision);
   }
-  for (const CellId cell : complex.cells()) {
-    elements.cells.push_back(values_of(complex.vertices(cell)));
-  }
-  return elements;
+  const auto* tensor = lattice.as<TensorLattice>();
+  return tensor != nullptr ? grid_elements(*tensor) : grid_elements(*lattice.as<ThbLattice>());
+}
+
+bool is_same(const Lattice& a, const Lattice& b) {
+  const auto address = [](const Lattice& lattice) {
+    return lattice.visit([](const auto& held) -> const void* { return &held; });
+  };
+  return address(a) == address(b);
 }
 
 std::span<const glm::dvec3> points_of(const Scene& scene, const std::string& lattice, Shape shape) {
@@ -140,7 +185,7 @@ std::span<const glm::dvec3> points_of(const Scene& scene, const std::string& lat
 
 glm::dvec3 outward_area(const Scene& scene, const std::string& lattice, std::int32_t face,
                         std::span<const glm::dvec3> points) {
-  const CellComplex& complex = *subdivision_lattice_in(scene, lattice, "the viewer").complex;
+  const CellComplex& complex = *subdivision_lattice_in(scene, lattice, "growing cells").complex;
   std::vector<glm::dvec3> loop;
   for (const VertexId vertex : complex.vertices(FaceId{face})) {
     loop.push_back(points[vertex.index()]);

@@ -43,7 +43,7 @@ bool is_hidden(const View& view, const PickTarget& target, const glm::dvec3& poi
   std::vector<glm::dvec3> loop;
   std::vector<Triangle> triangles;
   for (std::size_t face = 0; face < target.lattice.faces.n_rows(); ++face) {
-    if (!target.lattice.is_outer[face]) {
+    if (!target.lattice.is_outer[face] || !target.has(ElementKind::Face, face)) {
       continue;
     }
     loop.clear();
@@ -104,6 +104,9 @@ std::optional<std::int32_t> pick(const View& view, const PickTarget& target,
   double best_depth = 0;
   std::optional<std::int32_t> found;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(target.lattice.count(target.kind)); ++i) {
+    if (!target.has(target.kind, static_cast<std::size_t>(i))) {
+      continue;
+    }
     const glm::dvec3 place = nearest_place(view, target, i, pixel);
     const bool is_covered = target.kind == ElementKind::Face && covers(view, target, i, pixel);
     const double distance = is_covered ? 0 : glm::length(glm::dvec2(place) - pixel);
@@ -128,8 +131,9 @@ Selection pick_box(const View& view, const PickTarget& target, const glm::dvec2&
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(target.lattice.count(target.kind)); ++i) {
     const glm::dvec3 point = middle(target, i);
     const glm::dvec3 place = view.project(point);
-    if (place.z > 0 && place.x >= low.x && place.x <= high.x && place.y >= low.y &&
-        place.y <= high.y && (target.is_through || !is_hidden(view, target, point))) {
+    if (target.has(target.kind, static_cast<std::size_t>(i)) && place.z > 0 && place.x >= low.x &&
+        place.x <= high.x && place.y >= low.y && place.y <= high.y &&
+        (target.is_through || !is_hidden(view, target, point))) {
       found.insert(i);
     }
   }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "viewer/interact/lattice_elements.h"
+#include "viewer/interact/show.h"
 #include "viewer/interact/view.h"
 
 namespace espalier::viewer {
@@ -16,7 +17,13 @@ struct PickTarget {
   const LatticeElements& lattice;
   std::span<const glm::dvec3> points;
   ElementKind kind = ElementKind::Vertex;
-  bool is_through = true;  ///< also what the lattice's outer faces hide
+  bool is_through = true;            ///< also what the lattice's outer faces hide
+  const Visible* visible = nullptr;  ///< only what is to be seen; null: everything is
+
+  /// Whether an element can be picked at all.
+  [[nodiscard]] bool has(ElementKind which, std::size_t element) const {
+    return visible == nullptr || visible->of(which)[element];
+  }
 };
 
 /// The element at a pixel: a face that covers it; else the one whose middle, or whose line if it is

@@ -2,6 +2,7 @@
 
 /// A user at work: mouse and keys in, operations of the scene out.
 
+#include <array>
 #include <functional>
 #include <glm/vec2.hpp>
 #include <memory>
@@ -10,9 +11,15 @@
 #include <string>
 #include <vector>
 
+#include "viewer/interact/bent_models.h"
 #include "viewer/interact/event.h"
+#include "viewer/interact/gizmo.h"
+#include "viewer/interact/handling.h"
 #include "viewer/interact/journal.h"
 #include "viewer/interact/lattice_elements.h"
+#include "viewer/interact/operation_form.h"
+#include "viewer/interact/preview.h"
+#include "viewer/interact/show.h"
 #include "viewer/interact/transform.h"
 #include "viewer/interact/view.h"
 
@@ -46,6 +53,8 @@ class Session {
   // What a panel's buttons and keys do.
   void set_mode(Mode mode);
   void set_element_kind(ElementKind kind);
+  void set_handling(const Handling& handling);
+  void set_show(const Show& show);
   void choose_lattice(const std::string& name);
   void begin_transform(TransformKind kind);
   /// Grows cells from the selected faces, or from those all of whose vertices are selected.
@@ -53,14 +62,24 @@ class Session {
   void select_all(bool is_selected);
   void select_connected();
   void invert_selection();
-  void toggle_soft();
-  void toggle_through() { is_through_ = !is_through_; }
+  /// Hides what is selected; reveal() shows all that was hidden so.
+  void hide_selected();
+  void reveal();
   /// A lattice of one cell round all models, lattice.json beside the first one.
   void new_box();
   /// Ties every model to the chosen lattice.
   void bind();
   /// The chosen lattice back at rest.
   void rest();
+  /// Makes the selected edges or vertices so sharp: 0 smooth, from 10 on infinitely.
+  void set_sharpness(double sharpness);
+  /// The greatest of the selected edges or vertices.
+  [[nodiscard]] double sharpness() const;
+  /// What an operation would make is shown until it is done or ended.
+  void preview(const OperationCall& call) { preview_ = preview_of(call, scene()); }
+  void end_preview() { preview_ = Preview(); }
+  /// Does what a form says, and chooses the lattice that it makes.
+  void run_form(const OperationCall& call);
   /// Writes every bound model, bent, and the chosen lattice with its pose beside their files, as
   /// NAME_bent.EXTENSION.
   void save();
@@ -78,21 +97,32 @@ class Session {
   [[nodiscard]] Mode mode() const { return mode_; }
   [[nodiscard]] ElementKind element_kind() const { return kind_; }
   [[nodiscard]] const View& view() const { return view_; }
+  [[nodiscard]] const Handling& handling() const { return handling_; }
+  [[nodiscard]] const Show& show() const { return show_; }
   [[nodiscard]] const std::string& lattice() const { return lattice_; }  ///< "": none
   [[nodiscard]] const LatticeElements& elements() const { return elements_; }
+  [[nodiscard]] const Visible& visible() const { return visible_; }  ///< of the elements
   [[nodiscard]] const Selection& selection() const { return selection_; }
   [[nodiscard]] Selection selected_vertices() const {
     return elements_.vertices(kind_, selection_);
   }
   [[nodiscard]] Shape shape() const { return mode_ == Mode::Pose ? Shape::Pose : Shape::Rest; }
   /// The chosen lattice's points as they are on the screen, a transform in progress included.
-  [[nodiscard]] std::vector<glm::dvec3> shown_points() const;
+  [[nodiscard]] std::span<const glm::dvec3> shown_points() const;
+  /// The models as they are on the screen: bent in Pose mode only.
+  [[nodiscard]] const BentModels& bent_models() const { return bent_; }
   [[nodiscard]] const std::optional<Transform>& transform() const { return transform_; }
+  /// While a drag is stopped before a fold: how much of it is done; else 1.
+  [[nodiscard]] double done_fraction() const { return transform_ ? fraction_ : 1; }
+  /// The handles to draw, if there are any; and what that under the mouse, or in use, locks.
+  [[nodiscard]] std::optional<Gizmo> gizmo() const;
+  [[nodiscard]] std::optional<AxisLock> active_handle() const;
   /// While faces are extruded: the edges of the cells to come, two points each, model units.
   [[nodiscard]] std::vector<glm::dvec3> ghost() const;
+  [[nodiscard]] const Preview& shown_preview() const { return preview_; }
+  /// What a form begins with.
+  [[nodiscard]] FormContext form_context() const;
   [[nodiscard]] const std::optional<Rubber>& rubber() const { return rubber_; }
-  [[nodiscard]] bool is_soft() const { return is_soft_; }
-  [[nodiscard]] bool is_through() const { return is_through_; }
   [[nodiscard]] const std::vector<std::string>& messages() const { return messages_; }
   /// What is going on, in one line.
   [[nodiscard]] std::string status() const;
@@ -108,31 +138,46 @@ class Session {
   void on(const TextInput& /*text*/) {}
   void on(const Resize& size);
   bool on_transform_key(const std::string& chord);
+  [[nodiscard]] Drag drag_of(const MousePress& press) const;
+  [[nodiscard]] glm::dvec3 pivot() const;
+  void begin_drag();
+  void follow_transform();
+  void mirror(std::vector<glm::dvec3>& to) const;
+  void cancel_transform();
   void finish_transform();
+  void finish_held(const glm::dvec2& at);
   void finish_extrusion();
   void click(const glm::dvec2& at);
   void click_loop(const glm::dvec2& at);
   void select_box(const Rubber& box);
+  [[nodiscard]] std::optional<std::int32_t> picked(ElementKind kind, const glm::dvec2& at) const;
   void scene_changed();
-  [[nodiscard]] double soft_radius() const { return is_soft_ ? soft_radius_ : 0; }
+  void refresh();
 
   Progress progress_;
   Journal journal_;
   Mode mode_ = Mode::Lattice;
   ElementKind kind_ = ElementKind::Vertex;
   View view_;
+  Handling handling_;
+  Show show_;
   std::string lattice_;
   LatticeElements elements_;
   std::optional<Lattice> elements_source_;
+  Visible visible_;
   Selection selection_;
+  Selection last_selected_;  // vertices of the element that was clicked last
+  BentModels bent_;
   std::optional<Transform> transform_;
+  std::vector<double> weights_;                      // #controls: how much each follows a transform
+  std::array<std::vector<std::int32_t>, 3> images_;  // by axis that is mirrored
+  std::vector<glm::dvec3> moved_;                    // #controls: where a transform has them
+  double fraction_ = 1;
   std::optional<Rubber> rubber_;
   Drag drag_ = Drag::None;
   Modifiers held_;
   glm::dvec2 mouse_{0.0};
-  bool is_soft_ = false;
-  double soft_radius_ = 0;
-  bool is_through_ = true;
+  Preview preview_;
   std::vector<std::string> messages_;
 };
 
@@ -144,6 +189,6 @@ struct Command {
 };
 
 /// All commands of a session, in the order in which help lists them.
-[[nodiscard]] const std::vector<Command>& commands();
+[[nodiscard]] const std::vector<Command>& commands(Preset preset = Preset::Blender);
 
 }  // namespace espalier::viewer

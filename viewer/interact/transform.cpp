@@ -126,7 +126,7 @@ std::vector<glm::dvec3> Transform::apply(const View& view, std::span<const glm::
   const glm::dvec3 by = offset(view);
   const double turn = angle(view);
   const double ratio = factor(view);
-  const glm::dvec3 axis = lock.axis < 0 ? view.camera.backward() : unit(lock.axis);
+  const glm::dvec3 axis = turn_axis(view);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (weights[i] == 0) {
       continue;
@@ -139,12 +139,30 @@ std::vector<glm::dvec3> Transform::apply(const View& view, std::span<const glm::
                                     glm::dvec4(arm, 0));
     } else {
       for (int k = 0; k < 3; ++k) {
-        const bool is_scaled = lock.axis < 0 || (lock.axis == k) != lock.is_plane;
-        moved[i][k] = pivot[k] + arm[k] * (is_scaled ? 1 + weights[i] * (ratio - 1) : 1.0);
+        moved[i][k] = pivot[k] + arm[k] * (scales(k) ? 1 + weights[i] * (ratio - 1) : 1.0);
       }
     }
   }
   return moved;
+}
+
+glm::dvec3 Transform::turn_axis(const View& view) const {
+  return lock.axis < 0 ? view.camera.backward() : unit(lock.axis);
+}
+
+DragMotion Transform::motion(const View& view) const {
+  DragMotion motion;
+  if (kind == TransformKind::Move || kind == TransformKind::Extrude) {
+    motion.displacement = offset(view);
+  } else if (kind == TransformKind::Turn) {
+    motion.map = glm::dmat3(glm::rotate(glm::dmat4(1), angle(view), turn_axis(view)));
+  } else {
+    const double ratio = factor(view);
+    for (int axis = 0; axis < 3; ++axis) {
+      motion.map[axis][axis] = scales(axis) ? ratio : 1.0;
+    }
+  }
+  return motion;
 }
 
 std::string Transform::text(const View& view) const {

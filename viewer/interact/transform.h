@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/interact/drag_motion.h"
 #include "viewer/interact/lattice_elements.h"
 #include "viewer/interact/view.h"
 
@@ -31,6 +32,7 @@ struct Transform {
   glm::dvec2 at{0.0};      ///< where it is
   glm::dvec3 pivot{0.0};   ///< model units
   glm::dvec3 normal{0.0};  ///< unit; of Extrude
+  bool is_held = false;    ///< ends when the mouse button is released
 
   /// Types a digit, point or minus, or takes one back ("backspace"); false for another key.
   bool type(const std::string& key);
@@ -40,6 +42,9 @@ struct Transform {
   /// Where the points go. weights: #points in [0, 1]. O(#points).
   [[nodiscard]] std::vector<glm::dvec3> apply(const View& view, std::span<const glm::dvec3> points,
                                               std::span<const double> weights) const;
+  /// What moves points of weight 1: all of them, but that Turn gives a point of weight w the turn
+  /// by w of the angle.
+  [[nodiscard]] DragMotion motion(const View& view) const;
   /// How far Move and Extrude go.
   [[nodiscard]] glm::dvec3 offset(const View& view) const;
   /// How far along its normal Extrude goes.
@@ -50,6 +55,10 @@ struct Transform {
  private:
   [[nodiscard]] double angle(const View& view) const;
   [[nodiscard]] double factor(const View& view) const;
+  [[nodiscard]] bool scales(int axis) const {
+    return lock.axis < 0 || (lock.axis == axis) != lock.is_plane;
+  }
+  [[nodiscard]] glm::dvec3 turn_axis(const View& view) const;
 };
 
 /// How much each point follows: 1 if selected; else by its distance d from the nearest selected one

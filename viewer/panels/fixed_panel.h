@@ -14,4 +14,7 @@ inline constexpr float kMargin = 10;
 inline constexpr float kWidth = 230;
 inline const ImVec4 kFaint(0.62F, 0.65F, 0.70F, 1);
 
+/// A window in the middle, begun; false if it was closed.
+bool begin_overlay(const char* title, float width, float height);
+
 }  // namespace espalier::viewer

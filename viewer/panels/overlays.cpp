@@ -5,14 +5,23 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
+#include <utility>
 
 #include "deform/scene/operations.h"
+#include "viewer/panels/fixed_panel.h"
 #include "viewer/panels/panels.h"
 
 namespace espalier::viewer {
 namespace {
 
-/// A window in the middle; false if it was closed.
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+}  // namespace
+
 bool begin_overlay(const char* title, float width, float height) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(size.x / 2, size.y / 2), ImGuiCond_Always, ImVec2(0.5F, 0.5F));
@@ -23,15 +32,7 @@ bool begin_overlay(const char* title, float width, float height) {
   return is_open;
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-}  // namespace
-
-void draw_help(PanelState& state) {
+void draw_help(const Session& session, PanelState& state) {
   if (!state.shows_help) {
     return;
   }
@@ -46,7 +47,7 @@ void draw_help(PanelState& state) {
   ImGui::Separator();
   ImGui::Columns(2, "keys", false);
   ImGui::SetColumnWidth(0, 190);
-  for (const Command& command : commands()) {
+  for (const Command& command : commands(session.handling().preset)) {
     ImGui::TextUnformatted(command.keys.c_str());
     ImGui::NextColumn();
     ImGui::TextUnformatted(command.name.c_str());
@@ -56,9 +57,9 @@ void draw_help(PanelState& state) {
   ImGui::End();
 }
 
-/// Commands run at once; an operation without its arguments tells what it needs, and a whole line,
-/// as journals have it, is done.
-void draw_palette(PanelState& state, std::vector<Action>& actions) {
+/// Commands run at once; an operation opens its form; Enter takes the first that is listed; and a
+/// whole line, as journals have it, is done.
+void draw_palette(const Session& session, PanelState& state, std::vector<Action>& actions) {
   if (!state.shows_palette) {
     return;
   }
@@ -69,71 +70,32 @@ void draw_palette(PanelState& state, std::vector<Action>& actions) {
   const bool is_entered = ImGui::InputText("##search", state.search.data(), state.search.size(),
                                            ImGuiInputTextFlags_EnterReturnsTrue);
   const std::string text = state.search.data();
+  bool takes_next = is_entered;
   if (is_entered && text.find('=') != std::string::npos) {
-    actions.emplace_back([text](Session& session) { session.run_line(text); });
-    state.shows_palette = false;
+    actions.emplace_back([text](Session& target) { target.run_line(text); });
+    state.shows_palette = takes_next = false;
   }
   ImGui::BeginChild("found");
-  for (const Command& command : commands()) {
+  const std::string wanted = lower(text.substr(0, text.find('=')));
+  const auto is_chosen = [&](const std::string& label) {
+    return lower(label).find(wanted) != std::string::npos &&
+           (ImGui::Selectable(label.c_str()) || std::exchange(takes_next, false));
+  };
+  for (const Command& command : commands(session.handling().preset)) {
     const std::string label = command.name + "   (" + command.keys + ")";
-    if (lower(label).find(lower(text)) != std::string::npos && ImGui::Selectable(label.c_str())) {
+    if (is_chosen(label)) {
       actions.emplace_back(command.run);
       state.shows_palette = false;
     }
   }
   for (const Operation& operation : operations()) {
-    std::string label = operation.name;
-    for (const Parameter& parameter : operation.parameters) {
-      label += (parameter.is_required ? " " : " [") + parameter.name +
-               (parameter.is_required ? "=" : "=]");
-    }
-    if (lower(operation.name + operation.summary).find(lower(text.substr(0, text.find('=')))) !=
-            std::string::npos &&
-        ImGui::Selectable((operation.name + ": " + operation.summary).c_str())) {
-      actions.emplace_back([label](Session& session) { session.say(label); });
+    const std::string label = operation.name + " ...   " + operation.summary;
+    if (is_chosen(label)) {
+      open_form(operation, session, state);
+      state.shows_palette = false;
     }
   }
   ImGui::EndChild();
-  ImGui::End();
-}
-
-void draw_file_panel(const Session& session, PanelState& state, std::vector<Action>& actions) {
-  if (!state.shows_files) {
-    return;
-  }
-  state.shows_files = begin_overlay("Files", 640, 320);
-  if (ImGui::IsWindowAppearing()) {
-    ImGui::SetKeyboardFocusHere();
-  }
-  const bool is_entered = ImGui::InputText("path", state.path.data(), state.path.size(),
-                                           ImGuiInputTextFlags_EnterReturnsTrue);
-  const std::string path = state.path.data();
-  const auto open = [&](const std::string& file) {
-    actions.emplace_back([file](Session& target) { target.open(file); });
-    state.shows_files = false;
-  };
-  if ((ImGui::Button("Open") || is_entered) && !path.empty()) {
-    open(path);
-  }
-  ImGui::SameLine();
-  if (ImGui::Button("Save the lattice there") && !path.empty() && !session.lattice().empty()) {
-    actions.emplace_back([path](Session& target) {
-      target.apply({"save", Arguments({{"name", target.lattice()}, {"path", path}})});
-    });
-  }
-  for (const auto& [name, model] : session.scene().models) {
-    if (ImGui::Button(("Save bent there: " + name).c_str()) && !path.empty()) {
-      actions.emplace_back([path, chosen = name](Session& target) {
-        target.apply({"save deformed", Arguments({{"model", chosen}, {"path", path}})});
-      });
-    }
-  }
-  ImGui::Separator();
-  for (const std::string& file : state.recent) {
-    if (ImGui::Selectable(file.c_str())) {
-      open(file);
-    }
-  }
   ImGui::End();
 }
 
@@ -144,7 +106,7 @@ void draw_quit_question(PanelState& state, std::vector<Action>& actions) {
   state.asks_to_quit = begin_overlay("There are unsaved changes", 380, 90);
   if (ImGui::Button("Save and quit")) {
     actions.emplace_back([](Session& session) { session.save(); });
-    state.quits = true;
+    state.saves_and_quits = true;
   }
   ImGui::SameLine();
   if (ImGui::Button("Quit")) {
@@ -161,11 +123,15 @@ std::vector<Action> draw_panels(const Session& session, PanelState& state) {
   std::vector<Action> actions;
   draw_tool_panel(session, actions);
   draw_object_panel(session, actions);
+  if (!state.form) {
+    draw_show_panel(session, actions);
+  }
   draw_message_panel(session, actions);
   draw_status_line(session, state);
-  draw_help(state);
-  draw_palette(state, actions);
+  draw_help(session, state);
+  draw_palette(session, state, actions);
   draw_file_panel(session, state, actions);
+  draw_form_panel(session, state, actions);
   draw_quit_question(state, actions);
   return actions;
 }

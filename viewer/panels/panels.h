@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,17 @@ struct PanelState {
   bool shows_palette = false;
   bool shows_files = false;
   bool asks_to_quit = false;  ///< there are unsaved changes
-  bool quits = false;         ///< set once the program may end
-  std::array<char, 1024> path{};
+  bool saves_and_quits = false;
+  bool quits = false;    ///< set once the program may end
+  std::string path{};    ///< typed
+  std::string folder{};  ///< shown; "": where the program runs
   std::array<char, 128> search{};
   std::vector<std::string> recent;  ///< files, the last one first
+  std::string opened{};             ///< by the panel just now; "": nothing
   double frame_seconds = 0;
+  std::optional<OperationForm> form{};  ///< being filled in
+  std::string form_error{};
+  bool previews_form = false;  ///< the form was just opened
 };
 
 /// All of them.
@@ -35,9 +42,14 @@ void draw_tool_panel(const Session& session, std::vector<Action>& actions);
 void draw_object_panel(const Session& session, std::vector<Action>& actions);
 void draw_message_panel(const Session& session, std::vector<Action>& actions);
 void draw_status_line(const Session& session, const PanelState& state);
-void draw_help(PanelState& state);
-void draw_palette(PanelState& state, std::vector<Action>& actions);
+void draw_help(const Session& session, PanelState& state);
+void draw_palette(const Session& session, PanelState& state, std::vector<Action>& actions);
 void draw_file_panel(const Session& session, PanelState& state, std::vector<Action>& actions);
+/// Opens the form of an operation of the table, in place of one that is open.
+void open_form(const Operation& operation, const Session& session, PanelState& state);
+void draw_form_panel(const Session& session, PanelState& state, std::vector<Action>& actions);
+/// What is shown of the lattice, and how it is cut.
+void draw_show_panel(const Session& session, std::vector<Action>& actions);
 void draw_quit_question(PanelState& state, std::vector<Action>& actions);
 /// While a task runs: how far it is, and how to stop it.
 void draw_progress(std::string_view task, double fraction);

@@ -32,7 +32,7 @@ bool choice(const char* label, bool is_on, float width) {
 void command_button(const char* label, const char* chord, float width,
                     std::vector<Action>& actions) {
   if (ImGui::Button(label, ImVec2(width, 0))) {
-    for (const Command& command : commands()) {
+    for (const Command& command : commands(Preset::Blender)) {
       if (command.keys == chord) {
         actions.emplace_back(command.run);
       }
@@ -73,6 +73,57 @@ void draw_kinds(const Session& session, float width, std::vector<Action>& action
   }
 }
 
+void draw_handling(const Session& session, std::vector<Action>& actions) {
+  Handling handling = session.handling();
+  ImGui::Checkbox("Soft selection  (o)", &handling.is_soft);
+  bool is_visible_only = !handling.is_through;
+  ImGui::Checkbox("Only what is visible", &is_visible_only);
+  handling.is_through = !is_visible_only;
+  if (session.mode() == Mode::Pose) {
+    ImGui::Checkbox("Stop before folds", &handling.stops_at_folds);
+  }
+  ImGui::Checkbox("Handles", &handling.has_gizmo);
+  ImGui::SameLine();
+  ImGui::Checkbox("Wireframe", &handling.has_wireframe);
+  ImGui::TextColored(kFaint, "Mirror");
+  constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    ImGui::SameLine();
+    ImGui::Checkbox(kAxes.at(axis), &handling.mirrors.at(axis));
+  }
+  int pivot = static_cast<int>(handling.pivot);
+  ImGui::SetNextItemWidth(-1);
+  ImGui::Combo("##pivot", &pivot, "about the middle\0about the last selected\0about the origin\0");
+  handling.pivot = static_cast<Pivot>(pivot);
+  if (handling != session.handling()) {
+    actions.emplace_back([handling](Session& target) { target.set_handling(handling); });
+  }
+}
+
+/// What else the model's influence says is kept.
+void draw_strength(const Session& session, const std::string& model, std::vector<Action>& actions) {
+  const auto found = session.scene().influences.find(model);
+  const ModelInfluence now =
+      found == session.scene().influences.end() ? ModelInfluence() : *found->second;
+  auto strength = static_cast<float>(now.strength);
+  ImGui::PushID(model.c_str());
+  ImGui::SetNextItemWidth(-1);
+  ImGui::SliderFloat("##strength", &strength, 0, 1, "strength %.2f");
+  if (ImGui::IsItemDeactivatedAfterEdit()) {
+    Arguments arguments({{"model", model}, {"strength", static_cast<double>(strength)}});
+    if (!now.only.empty()) {
+      arguments.set("only", now.only);
+    }
+    if (!now.weights.empty()) {
+      arguments.set("weights", now.weights);
+    }
+    actions.emplace_back([arguments](Session& target) {
+      target.apply({"set influence", arguments});
+    });
+  }
+  ImGui::PopID();
+}
+
 }  // namespace
 
 void draw_tool_panel(const Session& session, std::vector<Action>& actions) {
@@ -107,14 +158,7 @@ void draw_tool_panel(const Session& session, std::vector<Action>& actions) {
     } else {
       command_button("At rest", "alt+g", half, actions);
     }
-    bool is_soft = session.is_soft();
-    if (ImGui::Checkbox("Soft selection  (o)", &is_soft)) {
-      actions.emplace_back([](Session& target) { target.toggle_soft(); });
-    }
-    bool is_visible_only = !session.is_through();
-    if (ImGui::Checkbox("Only what is visible", &is_visible_only)) {
-      actions.emplace_back([](Session& target) { target.toggle_through(); });
-    }
+    draw_handling(session, actions);
   }
   ImGui::Separator();
   command_button("Undo", "ctrl+z", half, actions);
@@ -136,6 +180,9 @@ void draw_object_panel(const Session& session, std::vector<Action>& actions) {
     ImGui::TextUnformatted(file_name(name).c_str());
     ImGui::TextColored(kFaint, "  %zu points, %zu faces", model.points().size(),
                        model.faces().n_rows());
+    if (session.mode() == Mode::Pose) {
+      draw_strength(session, name, actions);
+    }
     for (const auto& [names, bound] : scene.bound) {
       if (names.first == name) {
         const StatusCounts counts = bound.binding->counts();
@@ -148,9 +195,8 @@ void draw_object_panel(const Session& session, std::vector<Action>& actions) {
     if (ImGui::Selectable(file_name(name).c_str(), name == session.lattice())) {
       actions.emplace_back([chosen = name](Session& target) { target.choose_lattice(chosen); });
     }
-    const CellComplex& complex = *subdivision_lattice_in(scene, name).complex;
-    ImGui::TextColored(kFaint, "  %zu cells, %zu vertices", complex.n_cells(),
-                       complex.n_vertices());
+    ImGui::TextColored(kFaint, "  %s, %zu control points", std::string(lattice.type()).c_str(),
+                       lattice.rest_points().size());
   }
   ImGui::End();
 }

@@ -4,8 +4,12 @@
 /// the origin. Colours are display (sRGB) colours in [0,1]; widths are pixels of the picture.
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <vector>
+
+#include "viewer/render/picture.h"
 
 namespace espalier::viewer {
 
@@ -18,7 +22,10 @@ struct TriangleMesh {
   std::vector<glm::vec3> normals;      ///< One a position: unit, or zero for the facet's own.
   std::vector<std::uint32_t> indices;  ///< Three a triangle.
   glm::vec3 color = kClay;
-  float opacity = 1;  ///< In [0,1]; below 1 what is behind shines through.
+  float opacity = 1;                         ///< In [0,1]; below 1 what is behind shines through.
+  std::vector<glm::vec2> places{};           ///< In the texture, one a position, v upward; or none.
+  std::shared_ptr<const Picture> texture{};  ///< Repeats; in place of the colour. None: the colour.
+  float unit = 1;  ///< Drawing units that one of the positions' is long; above 0.
 };
 
 /// Straight lines of one width with round ends.

@@ -28,26 +28,31 @@ glm::dvec3 direction(const glm::dvec3& v) {
   return glm::normalize(v / largest);
 }
 
-/// The loop without corners that repeat the one before; empty if it cannot be drawn.
-std::vector<std::uint32_t> drawable_loop(std::span<const std::int32_t> face,
-                                         std::span<const glm::dvec3> points) {
-  std::vector<std::uint32_t> loop;
-  for (const std::int32_t index : face) {
+/// The corners of a face, by their place in it, without those that repeat the one before; empty if
+/// it cannot be drawn.
+std::vector<std::uint32_t> drawable_corners(std::span<const std::int32_t> face,
+                                            std::span<const glm::dvec3> points) {
+  std::vector<std::uint32_t> corners;
+  for (std::uint32_t i = 0; i < face.size(); ++i) {
+    const std::int32_t index = face[i];
     if (index < 0 || static_cast<std::size_t>(index) >= points.size() ||
         !is_finite(points[static_cast<std::size_t>(index)])) {
       return {};
     }
-    if (loop.empty() || loop.back() != static_cast<std::uint32_t>(index)) {
-      loop.push_back(static_cast<std::uint32_t>(index));
+    if (corners.empty() || face[corners.back()] != index) {
+      corners.push_back(i);
     }
   }
-  while (loop.size() > 1 && loop.front() == loop.back()) {
-    loop.pop_back();
+  while (corners.size() > 1 && face[corners.front()] == face[corners.back()]) {
+    corners.pop_back();
   }
-  std::vector<std::uint32_t> distinct = loop;
+  std::vector<std::int32_t> distinct;
+  for (const std::uint32_t corner : corners) {
+    distinct.push_back(face[corner]);
+  }
   std::sort(distinct.begin(), distinct.end());
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-  return distinct.size() < 3 ? std::vector<std::uint32_t>() : loop;
+  return distinct.size() < 3 ? std::vector<std::uint32_t>() : corners;
 }
 
 /// The positions around a face.
@@ -118,7 +123,13 @@ MeshDrawing::MeshDrawing(std::span<const glm::dvec3> points,
                          const CompressedRows<std::int32_t>& faces,
                          const MeshDrawingOptions& options)
     : options_(options), n_points_(points.size()) {
+  if (!options.corner_places.empty() && options.corner_places.size() != faces.n_values()) {
+    throw ParameterError("MeshDrawing: " + std::to_string(options.corner_places.size()) +
+                         " places in the texture given for " + std::to_string(faces.n_values()) +
+                         " corners");
+  }
   keep_drawable_faces(points, faces);
+  options_.corner_places = {};  // of the caller
   split_points_at_creases(points);
   triangulate_faces(points);
 }
@@ -133,7 +144,14 @@ void MeshDrawing::check_points(std::span<const glm::dvec3> points) const {
 void MeshDrawing::keep_drawable_faces(std::span<const glm::dvec3> points,
                                       const CompressedRows<std::int32_t>& faces) {
   for (std::size_t face = 0; face < faces.n_rows(); ++face) {
-    const std::vector<std::uint32_t> loop = drawable_loop(faces[face], points);
+    const std::vector<std::uint32_t> corners = drawable_corners(faces[face], points);
+    std::vector<std::uint32_t> loop;
+    for (const std::uint32_t corner : corners) {
+      loop.push_back(static_cast<std::uint32_t>(faces[face][corner]));
+      if (!options_.corner_places.empty()) {
+        corner_places_.push_back(options_.corner_places[faces.offset(face) + corner]);
+      }
+    }
     if (!loop.empty()) {
       loops_.push_back(loop);
     }
@@ -154,7 +172,9 @@ void MeshDrawing::split_points_at_creases(std::span<const glm::dvec3> points) {
   for (std::size_t i = 1; i < spokes.size(); ++i) {
     const Spoke& a = spokes[i - 1];
     const Spoke& b = spokes[i];
-    if (a.point == b.point && a.to == b.to &&
+    const bool is_one_place =
+        corner_places_.empty() || corner_places_[a.corner] == corner_places_[b.corner];
+    if (a.point == b.point && a.to == b.to && is_one_place &&
         glm::dot(face_normals[a.face], face_normals[b.face]) >= least_cosine) {
       sets.unite(a.corner, b.corner);
     }
@@ -166,6 +186,9 @@ void MeshDrawing::split_points_at_creases(std::span<const glm::dvec3> points) {
     if (first == corner) {
       corner_vertices_[corner] = static_cast<std::uint32_t>(vertex_points_.size());
       vertex_points_.push_back(loops_.values()[corner]);
+      if (!corner_places_.empty()) {
+        vertex_places_.push_back(corner_places_[corner]);
+      }
       corners.emplace_back();
     }
     corner_vertices_[corner] = corner_vertices_[first];
@@ -187,6 +210,28 @@ void MeshDrawing::triangulate_faces(std::span<const glm::dvec3> points) {
       triangles_.push_back(corner_vertices_[loops_.offset(face) + corner]);
     }
   }
+}
+
+MeshDrawing MeshDrawing::reordered(std::span<const std::uint32_t> order) const {
+  std::vector<std::uint32_t> new_numbers(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    new_numbers[order[i]] = i;
+  }
+  MeshDrawing result = *this;
+  for (auto* numbers : {&result.corner_vertices_, &result.triangles_}) {
+    for (std::uint32_t& vertex : *numbers) {
+      vertex = new_numbers[vertex];
+    }
+  }
+  result.vertex_corners_ = {};
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    result.vertex_points_[i] = vertex_points_[order[i]];
+    if (!vertex_places_.empty()) {
+      result.vertex_places_[i] = vertex_places_[order[i]];
+    }
+    result.vertex_corners_.push_back(vertex_corners_[order[i]]);
+  }
+  return result;
 }
 
 std::vector<glm::vec3> MeshDrawing::positions(std::span<const glm::dvec3> points) const {
@@ -223,7 +268,8 @@ std::vector<glm::vec3> MeshDrawing::normals(std::span<const glm::dvec3> points) 
 }
 
 TriangleMesh MeshDrawing::triangle_mesh(std::span<const glm::dvec3> points) const {
-  return {positions(points), normals(points), triangles_, options_.color, options_.opacity};
+  return {positions(points), normals(points),  triangles_,
+          options_.color,    options_.opacity, vertex_places_};
 }
 
 TriangleMesh draw_mesh(std::span<const glm::dvec3> points,

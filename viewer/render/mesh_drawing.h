@@ -3,6 +3,7 @@
 /// From polygons to triangles with normals: what a model's faces need to be drawn.
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -14,7 +15,10 @@
 namespace espalier::viewer {
 
 struct MeshDrawingOptions {
-  DrawingFrame frame{};      ///< From the points' units to drawing units.
+  DrawingFrame frame{};  ///< From the points' units to drawing units.
+  /// Of corners, parallel to the faces: points whose corners differ become several vertices. Empty:
+  /// there is no texture.
+  std::span<const glm::vec2> corner_places{};
   double crease_angle = 40;  ///< Degrees: faces that meet at more get an edge between them.
   glm::vec3 color = kClay;
   float opacity = 1;
@@ -32,11 +36,17 @@ class MeshDrawing {
   MeshDrawing(std::span<const glm::dvec3> points, const CompressedRows<std::int32_t>& faces,
               const MeshDrawingOptions& options = {});
 
+  /// The same with its vertices in another order. order: #vertices, the old number of each new one.
+  [[nodiscard]] MeshDrawing reordered(std::span<const std::uint32_t> order) const;
+
   [[nodiscard]] std::size_t n_vertices() const { return vertex_points_.size(); }
   /// Three vertices a triangle, turning as the faces do.
   [[nodiscard]] const std::vector<std::uint32_t>& triangles() const { return triangles_; }
   /// The point each vertex is drawn at.
   [[nodiscard]] const std::vector<std::uint32_t>& vertex_points() const { return vertex_points_; }
+
+  /// In the texture, #vertices; empty if there is none.
+  [[nodiscard]] const std::vector<glm::vec2>& vertex_places() const { return vertex_places_; }
 
   /// #vertices × 3, drawing units, for the points as they are now (as many as at first, else
   /// ParameterError). O(#vertices).
@@ -60,6 +70,8 @@ class MeshDrawing {
   std::vector<std::uint32_t> corner_vertices_;    // one a value of loops_
   CompressedRows<std::uint32_t> vertex_corners_;  // values of loops_ that share a vertex
   std::vector<std::uint32_t> vertex_points_;
+  std::vector<glm::vec2> corner_places_;  // one a value of loops_, or none
+  std::vector<glm::vec2> vertex_places_;
   std::vector<std::uint32_t> triangles_;
 };
 

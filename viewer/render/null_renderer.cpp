@@ -37,6 +37,7 @@ void NullRenderer::do_add(ItemId id, const PointSet& points) {
 
 void NullRenderer::do_remove(ItemId id) {
   items_.erase(id);
+  wireframes_.erase(id);
 }
 
 void NullRenderer::do_update_positions(ItemId id, std::size_t first,
@@ -55,6 +56,14 @@ void NullRenderer::do_update_colors(ItemId id, std::size_t first,
                                     std::span<const glm::vec3> colors) {
   if (!colors.empty()) {
     replace(colors_of(items_.at(id)), first, colors);
+  }
+}
+
+void NullRenderer::do_set_wireframe(ItemId id, bool has_wireframe) {
+  if (has_wireframe) {
+    wireframes_.insert(id);
+  } else {
+    wireframes_.erase(id);
   }
 }
 

@@ -3,6 +3,7 @@
 /// A renderer without a GPU.
 
 #include <map>
+#include <set>
 #include <variant>
 #include <vector>
 
@@ -18,6 +19,8 @@ class NullRenderer final : public Renderer {
 
   /// The items as they are now, with all updates; removed ones are gone.
   [[nodiscard]] const std::map<ItemId, Content>& items() const { return items_; }
+  /// The items that are outlined.
+  [[nodiscard]] const std::set<ItemId>& wireframes() const { return wireframes_; }
   /// All that was drawn, first to last.
   [[nodiscard]] const std::vector<Shot>& shots() const { return shots_; }
   /// Vectors uploaded so far: positions, normals, colours.
@@ -32,12 +35,14 @@ class NullRenderer final : public Renderer {
                            std::span<const glm::vec3> positions) override;
   void do_update_normals(ItemId id, std::size_t first, std::span<const glm::vec3> normals) override;
   void do_update_colors(ItemId id, std::size_t first, std::span<const glm::vec3> colors) override;
+  void do_set_wireframe(ItemId id, bool has_wireframe) override;
   void do_draw(const Shot& shot) override;
   void do_take_picture(const Shot& shot, Picture& picture) override;
 
   void replace(std::vector<glm::vec3>& all, std::size_t first, std::span<const glm::vec3> some);
 
   std::map<ItemId, Content> items_;
+  std::set<ItemId> wireframes_;
   std::vector<Shot> shots_;
   std::size_t n_uploaded_ = 0;
 };

@@ -70,6 +70,16 @@ struct GlFramebufferKind {
   static void destroy(GLuint id) { glDeleteFramebuffers(1, &id); }
 };
 
+struct GlTextureKind {
+  static GLuint create() {
+    GLuint id = 0;
+    glGenTextures(1, &id);
+    return id;
+  }
+  static void destroy(GLuint id) { glDeleteTextures(1, &id); }
+};
+
+using GlTexture = GlObject<GlTextureKind>;
 using GlBuffer = GlObject<GlBufferKind>;
 using GlVertexArray = GlObject<GlVertexArrayKind>;
 using GlRenderbuffer = GlObject<GlRenderbufferKind>;

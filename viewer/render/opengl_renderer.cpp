@@ -29,7 +29,9 @@ struct GpuItem {
   Kind kind = Kind::Mesh;
   GLsizei n = 0;  // indices of a mesh, else instances
   glm::vec3 color{0};
-  float opacity = 1;         // of a mesh
+  float opacity = 1;  // of a mesh
+  float unit = 1;     // of a mesh
+  bool has_wireframe = false;
   float hidden_opacity = 0;  // of lines and points
   float width = 0;           // or diameter
   float outline = 0;
@@ -37,6 +39,8 @@ struct GpuItem {
   GlBuffer positions;
   GlBuffer normals_or_colors;
   GlBuffer indices;
+  std::optional<GlBuffer> places;
+  std::optional<GlTexture> texture;
 };
 
 /// The part of a picture that is drawn at once, in pixels from its bottom left corner.
@@ -65,6 +69,18 @@ void attach(GLuint index, const GlBuffer& buffer, GLsizei n_skipped, GLuint divi
   glVertexAttribDivisor(index, divisor);
 }
 
+/// A picture that repeats, smooth from near and far.
+void store(const Picture& picture, const GlTexture& texture) {
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, picture.width, picture.height, 0, GL_RGBA,
+               GL_UNSIGNED_BYTE, picture.pixels.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glBindTexture(GL_TEXTURE_2D, 0);
+}
+
 /// Enlarges a tile of the picture to all of clip space.
 glm::dmat4 tile_matrix(const Tile& tile, const Shot& shot) {
   const glm::dvec3 grow(double(shot.width) / tile.width, double(shot.height) / tile.height, 1);
@@ -83,6 +99,9 @@ class OpenglRenderer final : public Renderer {
                            std::span<const glm::vec3> positions) override;
   void do_update_normals(ItemId id, std::size_t first, std::span<const glm::vec3> normals) override;
   void do_update_colors(ItemId id, std::size_t first, std::span<const glm::vec3> colors) override;
+  void do_set_wireframe(ItemId id, bool has_wireframe) override {
+    items_.at(id.value).has_wireframe = has_wireframe;
+  }
   void do_draw(const Shot& shot) override;
   void do_take_picture(const Shot& shot, Picture& picture) override;
 
@@ -91,6 +110,7 @@ class OpenglRenderer final : public Renderer {
   void draw_background(const Shot& shot, const Tile& tile);
   void set_view(const GlProgram& program, const Shot& shot, const Tile& tile) const;
   void draw_meshes(const Shot& shot, bool is_opaque) const;
+  void draw_wireframe(const GpuItem& item) const;
   void draw_marks(const Shot& shot, const MarkPass& pass) const;
   void draw_lines(const GpuItem& item, const MarkPass& pass) const;
   void draw_points(const GpuItem& item, const MarkPass& pass) const;
@@ -107,12 +127,22 @@ void OpenglRenderer::do_add(ItemId id, const TriangleMesh& mesh) {
   item.n = static_cast<GLsizei>(mesh.indices.size());
   item.color = mesh.color;
   item.opacity = mesh.opacity;
+  item.unit = mesh.unit;
   upload<glm::vec3>(item.positions, mesh.positions);
   upload<glm::vec3>(item.normals_or_colors, mesh.normals);
   upload<std::uint32_t>(item.indices, mesh.indices);
   glBindVertexArray(item.layout.id());
   attach(kPositionAttribute, item.positions, 0, 0, 1);
   attach(kNormalAttribute, item.normals_or_colors, 0, 0, 1);
+  if (mesh.texture) {
+    item.places.emplace();
+    upload<glm::vec2>(*item.places, mesh.places);
+    glBindBuffer(GL_ARRAY_BUFFER, item.places->id());
+    glEnableVertexAttribArray(kPlaceAttribute);
+    glVertexAttribPointer(kPlaceAttribute, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
+    item.texture.emplace();
+    store(*mesh.texture, *item.texture);
+  }
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, item.indices.id());
   glBindVertexArray(0);
   check_opengl("store a mesh");
@@ -287,10 +317,30 @@ void OpenglRenderer::draw_meshes(const Shot& shot, bool is_opaque) const {
     if (item.kind == Kind::Mesh && (item.opacity == 1) == is_opaque) {
       shaders_.mesh.set("color", item.color);
       shaders_.mesh.set("opacity", item.opacity);
+      shaders_.mesh.set("unit", item.unit);
+      shaders_.mesh.set("has_texture", item.texture ? 1.F : 0.F);
+      glActiveTexture(GL_TEXTURE0);
+      glBindTexture(GL_TEXTURE_2D, item.texture ? item.texture->id() : 0);
       glBindVertexArray(item.layout.id());
       glDrawElements(GL_TRIANGLES, item.n, GL_UNSIGNED_INT, nullptr);
+      if (item.has_wireframe) {
+        draw_wireframe(item);
+      }
     }
   }
+}
+
+/// A mesh that was just drawn once more, as lines, a little nearer to the eye.
+void OpenglRenderer::draw_wireframe(const GpuItem& item) const {
+  constexpr float kDarker = 0.3F;
+  shaders_.mesh.set("color", kDarker * item.color);
+  shaders_.mesh.set("has_texture", 0.F);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  glEnable(GL_POLYGON_OFFSET_LINE);
+  glPolygonOffset(-1, -1);
+  glDrawElements(GL_TRIANGLES, item.n, GL_UNSIGNED_INT, nullptr);
+  glDisable(GL_POLYGON_OFFSET_LINE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
 void OpenglRenderer::draw_marks(const Shot& shot, const MarkPass& pass) const {

@@ -38,12 +38,16 @@ void main() { pixel = vec4(linear(mix(bottom, top, height)), 1.0); }
 constexpr const char* kMeshVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
+layout(location = 3) in vec2 place;
+uniform float unit;
+out vec2 texture_place;
 out vec3 eye_position;
 centroid out vec3 eye_normal;
 void main() {
-  vec4 placed = view * vec4(position, 1.0);
+  vec4 placed = view * vec4(unit * position, 1.0);
   eye_position = placed.xyz;
   eye_normal = mat3(view) * normal;
+  texture_place = place;
   gl_Position = projection * placed;
 }
 )";
@@ -52,7 +56,10 @@ void main() {
 /// right, a light from behind that sets off the outline, and a sky above a floor.
 constexpr const char* kMeshFragment = R"(
 uniform vec3 color;
+uniform float has_texture;
+uniform sampler2D image;
 in vec3 eye_position;
+in vec2 texture_place;
 centroid in vec3 eye_normal;
 out vec4 pixel;
 
@@ -79,6 +86,12 @@ vec3 lit_normal(vec3 to_eye) {
   return dot(normal, facet) < 0.0 ? -normal : normal;
 }
 
+// Where the texture covers nothing, places are far below 0.
+vec3 own_color() {
+  vec3 covered = texture(image, vec2(texture_place.x, 1.0 - texture_place.y)).rgb;
+  return has_texture > 0.0 && texture_place.x > -9e3 ? covered : linear(color);
+}
+
 void main() {
   vec3 to_eye = projection[2][3] == 0.0 ? vec3(0.0, 0.0, 1.0) : normalize(-eye_position);
   vec3 normal = lit_normal(to_eye);
@@ -88,7 +101,7 @@ void main() {
              + back_light * wrapped(dot(normal, back_direction));
   float facing = max(dot(normal, to_eye), 0.0);
   float shine = pow(max(dot(normal, normalize(key_direction + to_eye)), 0.0), 28.0);
-  vec3 lit = linear(color) * light + 0.06 * shine * key_light
+  vec3 lit = own_color() * light + 0.06 * shine * key_light
            + 0.16 * pow(1.0 - facing, 4.0) * sky_light;
   pixel = vec4(lit, opacity);
 }

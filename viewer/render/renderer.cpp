@@ -42,9 +42,19 @@ void check_pixels(float value, const std::string& what) {
 
 void check(const TriangleMesh& mesh) {
   check_count(mesh.normals.size(), mesh.positions.size(), "normals");
+  check_count(mesh.places.size(), mesh.texture ? mesh.positions.size() : mesh.places.size(),
+              "places in the texture");
+  for (const glm::vec2& place : mesh.places) {
+    if (!std::isfinite(place.x) || !std::isfinite(place.y)) {
+      fail("a place in the texture is not finite");
+    }
+  }
   check_finite(mesh.positions, "position");
   check_finite(mesh.normals, "normal");
   check_fraction(mesh.opacity, "opacity");
+  if (!(mesh.unit > 0) || !std::isfinite(mesh.unit)) {
+    fail("the unit is " + std::to_string(mesh.unit) + ", it must be above 0 and finite");
+  }
   if (mesh.indices.size() % 3 != 0) {
     fail(std::to_string(mesh.indices.size()) + " indices, it must be three a triangle");
   }
@@ -150,6 +160,11 @@ void Renderer::update_colors(ItemId item, std::size_t first, std::span<const glm
 
 void Renderer::set_visible(ItemId item, bool is_visible) {
   existing(item).is_visible = is_visible;
+}
+
+void Renderer::set_wireframe(ItemId mesh, bool has_wireframe) {
+  static_cast<void>(existing(mesh));
+  do_set_wireframe(mesh, has_wireframe);
 }
 
 void Renderer::draw(const Camera& camera, int width, int height) {

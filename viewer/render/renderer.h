@@ -52,6 +52,8 @@ class Renderer {
   /// Recolours segments of a line set, or points of a point set, from `first` on.
   void update_colors(ItemId item, std::size_t first, std::span<const glm::vec3> colors);
   void set_visible(ItemId item, bool is_visible);
+  /// Whether a mesh's triangles are outlined; at first they are not.
+  void set_wireframe(ItemId mesh, bool has_wireframe);
   void set_background(const Background& background) { background_ = background; }
 
   /// Draws into the frame buffer of the window, width × height pixels.
@@ -71,6 +73,7 @@ class Renderer {
                                  std::span<const glm::vec3> normals) = 0;
   virtual void do_update_colors(ItemId id, std::size_t first,
                                 std::span<const glm::vec3> colors) = 0;
+  virtual void do_set_wireframe(ItemId id, bool has_wireframe) = 0;
   virtual void do_draw(const Shot& shot) = 0;
   virtual void do_take_picture(const Shot& shot, Picture& picture) = 0;
 

@@ -1,0 +1,110 @@
+#include "viewer/render/model_texture.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "deform/model/model_file.h"
+#include "lattice/core/error.h"
+#include "lattice/core/file.h"
+#include "viewer/render/mesh_drawing.h"
+#include "viewer/render/offscreen_context.h"
+#include "viewer/render/opengl_renderer.h"
+
+namespace espalier::viewer {
+namespace {
+
+constexpr const char* kObj =
+    "mtllib m.mtl\n"
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\n"
+    "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+    "usemtl painted\nf 1/1 2/2 3/3 4/-1\n"
+    "usemtl plain\nf 2/1 5/2 3/3\n";
+
+/// A folder with an OBJ file, its materials, and a picture: left half red, right half green.
+class ModelTextureTest : public ::testing::Test {
+ protected:
+  ModelTextureTest() {
+    folder_ = (std::filesystem::temp_directory_path() / "espalier.XXXXXX").string();
+    folder_ = ::mkdtemp(folder_.data());
+    write_file(path("m.mtl"), "newmtl plain\nKd 1 1 1\nnewmtl painted\nmap_Kd -s 1 1 1 p.png\n");
+    Picture picture(64, 64);
+    for (std::size_t i = 0; i < 64 * 64; ++i) {
+      picture.pixels[4 * i + (i % 64 < 32 ? 0 : 1)] = 255;
+      picture.pixels[4 * i + 3] = 255;
+    }
+    write_png(path("p.png"), picture);
+    write_file(path("m.obj"), kObj);
+  }
+  ~ModelTextureTest() override { std::filesystem::remove_all(folder_); }
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_ + "/" + name; }
+
+  std::string folder_;
+};
+
+TEST_F(ModelTextureTest, reads_places_of_corners_and_the_picture_of_their_material) {
+  const auto texture = find_texture(read_model(path("m.obj")));
+  ASSERT_TRUE(texture);
+  EXPECT_EQ(texture->corner_places,
+            (std::vector<glm::vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}, kNoPlace, kNoPlace, kNoPlace}));
+  EXPECT_EQ(texture->picture->at(5, 5), (std::array<std::uint8_t, 4>{255, 0, 0, 255}));
+  EXPECT_EQ(texture->picture->at(60, 5), (std::array<std::uint8_t, 4>{0, 255, 0, 255}));
+}
+
+TEST_F(ModelTextureTest, a_model_without_its_picture_is_drawn_without) {
+  write_file(path("p.png"), "no picture");
+  EXPECT_FALSE(find_texture(read_model(path("m.obj"))));
+  EXPECT_THROW((void)read_picture(path("p.png")), FileError);
+  std::filesystem::remove(path("m.mtl"));
+  EXPECT_FALSE(find_texture(read_model(path("m.obj"))));
+  write_file(path("m.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+  EXPECT_FALSE(find_texture(read_model(path("m.obj"))));
+}
+
+TEST_F(ModelTextureTest, references_to_places_that_are_none_are_no_places) {
+  write_file(path("m.obj"), "mtllib m.mtl\nusemtl painted\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+  const auto texture = find_texture(read_model(path("m.obj")));
+  ASSERT_TRUE(texture);
+  EXPECT_EQ(texture->corner_places, std::vector<glm::vec2>(3, kNoPlace));
+}
+
+TEST_F(ModelTextureTest, points_are_several_vertices_where_their_places_differ) {
+  const Model model = read_model(path("m.obj"));
+  const auto texture = find_texture(model);
+  const MeshDrawing drawing(model.points(), model.faces(),
+                            {.corner_places = texture->corner_places});
+  EXPECT_EQ(drawing.n_vertices(), 7u);
+  EXPECT_EQ(drawing.vertex_places().size(), 7u);
+  EXPECT_EQ(MeshDrawing(model.points(), model.faces()).n_vertices(), 5u);
+  EXPECT_THROW(MeshDrawing(model.points(), model.faces(),
+                           {.corner_places = std::span(texture->corner_places).first(2)}),
+               ParameterError);
+}
+
+TEST_F(ModelTextureTest, the_picture_is_seen_the_right_way_round_and_only_where_it_is) {
+  const OffscreenContext context;
+  const auto renderer = make_opengl_renderer();
+  const Model model = read_model(path("m.obj"));
+  const auto texture = find_texture(model);
+  TriangleMesh mesh =
+      draw_mesh(model.points(), model.faces(), {.corner_places = texture->corner_places});
+  mesh.texture = texture->picture;
+  renderer->add(mesh);
+  Camera camera;
+  camera.angles = named_view("front");
+  camera.projection = Projection::Orthographic;
+  Box box;
+  box.add(glm::dvec3(0, 0, 0));
+  box.add(glm::dvec3(2, 1, 0));
+  const Picture picture = renderer->take_picture(camera.fitted_to(box, 2, 0), 200, 100);
+  const auto left = picture.at(25, 50);
+  const auto right = picture.at(75, 50);
+  const auto clay = picture.at(120, 80);
+  EXPECT_GT(left[0], 3 * left[1]);
+  EXPECT_GT(right[1], 3 * right[0]);
+  EXPECT_GT(clay[1], 80);
+  EXPECT_GT(clay[0], clay[2]);
+}
+
+}  // namespace
+}  // namespace espalier::viewer

@@ -1,0 +1,53 @@
+#include "viewer/interact/preview.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "deform/scene/operations.h"
+#include "lattice/core/error.h"
+
+namespace espalier::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kPatience(150);
+
+/// The name of the lattice that an operation makes; empty if it makes none.
+std::string result_of(const OperationCall& call) {
+  for (const Parameter& parameter : operation_named(call.operation).parameters) {
+    if (parameter.type == ParameterType::Result && call.arguments.has(parameter.name)) {
+      return call.arguments.text(parameter.name);
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+Preview preview_of(const OperationCall& call, const Scene& scene) {
+  Preview preview;
+  const std::string name = result_of(call);
+  if (name.empty()) {
+    return preview;
+  }
+  const Clock::time_point end = Clock::now() + kPatience;
+  const Progress impatient([end](std::string_view, double) { return Clock::now() < end; });
+  try {
+    const Scene after = apply(call, scene, impatient);
+    const auto found = after.lattices.find(name);
+    if (found != after.lattices.end()) {
+      const auto points = found->second.posed_points();
+      for (const auto& ends : found->second.net()) {
+        preview.segments.push_back(points[static_cast<std::size_t>(ends[0])]);
+        preview.segments.push_back(points[static_cast<std::size_t>(ends[1])]);
+      }
+    }
+  } catch (const Cancelled&) {
+    return {};
+  } catch (const Error& error) {
+    preview.error = error.what();
+  }
+  return preview;
+}
+
+}  // namespace espalier::viewer

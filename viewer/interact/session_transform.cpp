@@ -1,0 +1,156 @@
+/// How a session moves control points.
+
+#include <glm/geometric.hpp>
+#include <string>
+#include <utility>
+
+#include "viewer/interact/session.h"
+#include "viewer/interact/symmetry.h"
+
+namespace espalier::viewer {
+
+void Session::begin_transform(TransformKind kind) {
+  if (lattice_.empty() || selection_.empty()) {
+    say("Select control points first: click them, or press a for all.");
+    return;
+  }
+  if (mode_ == Mode::Bind) {
+    say("Bind mode moves nothing: press Tab for Pose mode.");
+    return;
+  }
+  cancel_transform();
+  if (kind != TransformKind::Extrude) {
+    handling_.gizmo = kind;
+  }
+  transform_ = Transform{kind, {}, {}, mouse_, mouse_, pivot(), glm::dvec3(0.0), false};
+  begin_drag();
+}
+
+glm::dvec3 Session::pivot() const {
+  if (handling_.pivot == Pivot::Origin) {
+    return glm::dvec3(0.0);
+  }
+  const bool is_last = handling_.pivot == Pivot::Last && !last_selected_.empty();
+  const Selection vertices = is_last ? last_selected_ : selected_vertices();
+  const std::span<const glm::dvec3> points = shown_points();
+  glm::dvec3 middle(0.0);
+  for (const std::int32_t vertex : vertices) {
+    middle += points[static_cast<std::size_t>(vertex)] / double(vertices.size());
+  }
+  return middle;
+}
+
+/// From mouse-down: also where the radius of a soft selection changed since.
+void Session::begin_drag() {
+  if (transform_->kind == TransformKind::Extrude) {
+    return;
+  }
+  const auto points = points_of(scene(), lattice_, shape());
+  weights_ = soft_weights(points, selected_vertices(), handling_.radius());
+  moved_.assign(points.begin(), points.end());
+  fraction_ = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<std::size_t>(axis);
+    images_.at(at) = handling_.mirrors.at(at)
+                         ? mirror_images(points_of(scene(), lattice_, Shape::Rest), axis)
+                         : std::vector<std::int32_t>();
+  }
+  if (mode_ == Mode::Pose) {
+    const bool is_turned = transform_->kind != TransformKind::Move;
+    // A soft turn gives every point an angle of its own.
+    const bool is_fast = !handling_.is_mirrored() &&
+                         !(transform_->kind == TransformKind::Turn && handling_.radius() > 0);
+    bent_.begin_drag(
+        {lattice_, moved_, {0, weights_, moved_, transform_->pivot, is_turned}, is_fast});
+  }
+}
+
+void Session::follow_transform() {
+  if (!transform_ || transform_->kind == TransformKind::Extrude) {
+    return;
+  }
+  const auto points = points_of(scene(), lattice_, shape());
+  moved_ = transform_->apply(view_, points, weights_);
+  mirror(moved_);
+  if (!bent_.is_dragging()) {
+    return;
+  }
+  fraction_ = bent_.follow(transform_->motion(view_), moved_, handling_.stops_at_folds);
+  if (fraction_ < 1) {
+    for (std::size_t i = 0; i < moved_.size(); ++i) {
+      moved_[i] = points[i] + fraction_ * (moved_[i] - points[i]);
+    }
+  }
+}
+
+void Session::mirror(std::vector<glm::dvec3>& to) const {
+  const auto points = points_of(scene(), lattice_, shape());
+  for (int axis = 0; axis < 3; ++axis) {
+    if (const auto& images = images_.at(static_cast<std::size_t>(axis)); !images.empty()) {
+      mirror_motion(points, images, axis, to);
+    }
+  }
+}
+
+void Session::cancel_transform() {
+  transform_.reset();
+  fraction_ = 1;
+  bent_.cancel_drag();
+}
+
+std::span<const glm::dvec3> Session::shown_points() const {
+  if (lattice_.empty()) {
+    return {};
+  }
+  const bool is_moving = transform_ && transform_->kind != TransformKind::Extrude;
+  return is_moving ? std::span<const glm::dvec3>(moved_) : points_of(scene(), lattice_, shape());
+}
+
+std::optional<Gizmo> Session::gizmo() const {
+  const bool has_gizmo = handling_.has_gizmo && !lattice_.empty() && !selection_.empty() &&
+                         mode_ != Mode::Bind && (!transform_ || transform_->is_held);
+  if (!has_gizmo) {
+    return std::nullopt;
+  }
+  if (!transform_) {
+    return Gizmo{handling_.gizmo, pivot()};
+  }
+  const glm::dvec3 by = fraction_ * transform_->motion(view_).displacement;
+  return Gizmo{transform_->kind, transform_->pivot + by};
+}
+
+std::optional<AxisLock> Session::active_handle() const {
+  if (transform_ && transform_->is_held) {
+    return transform_->lock;
+  }
+  const auto shown = gizmo();
+  return shown ? gizmo_hit(*shown, view_, mouse_) : std::nullopt;
+}
+
+void Session::finish_transform() {
+  if (transform_->kind == TransformKind::Extrude) {
+    finish_extrusion();
+    return;
+  }
+  const auto before = points_of(scene(), lattice_, shape());
+  const std::vector<glm::dvec3> after = moved_;
+  std::vector<std::int64_t> indices;
+  std::vector<double> to;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    if (after[i] != before[i]) {
+      indices.push_back(static_cast<std::int64_t>(i));
+      to.insert(to.end(), {after[i].x, after[i].y, after[i].z});
+    }
+  }
+  if (indices.empty()) {
+    cancel_transform();
+  } else {
+    apply({"move points",
+           Arguments({{"lattice", lattice_},
+                      {"points", std::move(indices)},
+                      {"to", std::move(to)},
+                      {"shape", std::string(shape() == Shape::Pose ? "pose" : "rest")}})});
+  }
+}
+
+}  // namespace espalier::viewer
