@@ -88,10 +88,11 @@ std::span<const double> differing(std::span<const double> weights) {
   return are_equal ? std::span<const double>() : weights;
 }
 
-void require_weights(std::span<const double> weights, std::size_t n_points) {
-  if (!weights.empty() && weights.size() != n_points) {
+void require_weights(std::span<const double> weights, const Volume& volume) {
+  const std::size_t n_weights = volume.weights().size();
+  if (!weights.empty() && weights.size() != n_weights) {
     throw ParameterError(
-        fmt::format("the pose has {} weights, the volume {} points", weights.size(), n_points));
+        fmt::format("the pose has {} weights, the volume {}", weights.size(), n_weights));
   }
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (!(weights[i] > 0 && weights[i] <= kLargestCoordinate)) {
@@ -299,7 +300,7 @@ LocalInjectivity InjectivityCheck::local(const PosedControls& pose,
                                          std::span<const std::int32_t> patches,
                                          std::size_t most_boxes) const {
   require_finite("pose", pose.points, volume_->n_controls());
-  require_weights(pose.weights, volume_->n_points());
+  require_weights(pose.weights, *volume_);
   const Frame posed = frame_of(pose);
   constexpr std::size_t kGrain = 64;
   std::vector<LocalInjectivity> parts((patches.size() + kGrain - 1) / kGrain);
@@ -365,7 +366,7 @@ SafeStep InjectivityCheck::largest_step(const PosedControls& pose,
                                         const SafeStepOptions& options) const {
   require_finite("pose", pose.points, volume_->n_controls());
   require_finite("motion", motion, volume_->n_controls());
-  require_weights(pose.weights, volume_->n_points());
+  require_weights(pose.weights, *volume_);
   const Frame start = frame_of(pose);
   const Frame moves = motion_of(motion, start);
   const bool one_direction = is_parallel(motion);

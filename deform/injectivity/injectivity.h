@@ -31,7 +31,7 @@ struct PosedControls {
   // NOLINTEND(google-explicit-constructor)
 
   std::span<const glm::dvec3> points;  ///< #controls, model units
-  std::span<const double> weights;     ///< #points of the volume, positive; empty: as at rest
+  std::span<const double> weights;     ///< #points of a rational volume; empty: as at rest
 };
 
 /// A place where space is folded.

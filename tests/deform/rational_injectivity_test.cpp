@@ -223,6 +223,10 @@ TEST(RationalInjectivity, names_bad_weights) {
   }
   weights.pop_back();
   EXPECT_THROW((void)check.largest_step({lattice.rest, weights}, lattice.rest), ParameterError);
+  const TensorAxis axis = TensorAxis::make(3, 2, Ends::Open);
+  const TensorLattice plain = make_tensor_lattice(TensorKind::BSpline, {axis, axis, axis}, {});
+  const std::vector<double> ones(27, 1.0);
+  EXPECT_THROW((void)check_of(plain).local({plain.rest, ones}), ParameterError);
 }
 
 TEST(LargestStep, of_a_plane_of_control_points_ends_where_the_pose_folds) {

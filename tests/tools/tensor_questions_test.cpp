@@ -85,6 +85,61 @@ TEST_F(TensorCommands, deform_locks_grids_where_the_model_leaves_them) {
   }
 }
 
+TEST_F(TensorCommands, check_and_pull_certify_volumes_with_weights_that_differ) {
+  make_all();
+  const auto check = [](const std::string& path, int status, const Words& more = {}) {
+    Words words = {"check", path, "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto outcome = run(words);
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    return Json::parse(outcome.out);
+  };
+  EXPECT_EQ(check("nurbs.json", 0)["local"], "certified");
+  pose_lattice("nurbs.json", "posed.json", bend);
+  EXPECT_EQ(check("posed.json", 3)["local"], "certified");  // its boundary moved: undecided
+  Json posed = read_json("posed.json");
+  posed["pose_weights"] = posed["weights"];
+  posed["pose_weights"][30] = 3;
+  write_json("posed.json", posed);
+  EXPECT_EQ(check("posed.json", 3)["local"], "certified");
+  const Json drag = check("nurbs.json", 0, {"--drag", "45=1,0.5,0"});
+  const double step = drag["largest_step"];
+  EXPECT_GT(step, 0.05);
+  EXPECT_LT(step, 5);
+  for (const double part : {0.999, 1.001}) {
+    Json dragged = read_json("nurbs.json");
+    dragged["pose"] = dragged["rest"];
+    for (std::size_t c = 0; c < 2; ++c) {
+      const double by = (c == 0 ? 1 : 0.5) * part * step;
+      dragged["pose"][45][c] = dragged["pose"][45][c].get<double>() + by;
+    }
+    write_json("dragged.json", dragged);
+    const bool is_folded = part > 1;
+    const Json found = check("dragged.json", is_folded ? 1 : 3);
+    EXPECT_EQ(found["local"], is_folded ? "folded" : "certified");
+    EXPECT_EQ(found["folds"].empty(), !is_folded);
+  }
+  const Json pulled =
+      Json::parse(done({"pull", "nurbs.json", "--model", "cloud.obj", "--pick", "2=5,0.7,0.5",
+                        "--stop-at-fold", "-o", "pulled.json", "--json"}));
+  EXPECT_LT(pulled["step"], 1);
+  EXPECT_NE(check("pulled.json", 3)["local"], "folded");
+}
+
+TEST_F(TensorCommands, convert_takes_volumes_of_more_points_than_control_points) {
+  for (const Words& kind : {Words{"--counts", "4", "5", "1"}, Words{"--ends", "tripled"}}) {
+    Words words = {"new", "nurbs", "-o", "nurbs.json"};
+    words.insert(words.end(), kind.begin(), kind.end());
+    done(words);
+    pose_lattice("nurbs.json", "posed.json", bend);
+    done({"convert", "posed.json", "--volume", "-o", "volume.vtu"});
+    EXPECT_THAT(read_file("volume.vtu"), HasSubstr("RationalWeights"));
+    EXPECT_EQ(Json::parse(done(
+                  {"info", "posed.json", "--model", "cloud.obj", "--json"}))["model"]["inside"],
+              5);
+  }
+}
+
 TEST_F(TensorCommands, files_that_make_no_lattice_are_named_and_nothing_written) {
   make_all();
   const auto refused = [](const std::string& type, const auto& spoil, const std::string& reason) {
