@@ -68,7 +68,7 @@ struct MovingPatch {
 };
 
 /// Determinants of the derivatives of Bézier hexahedra by products of nets. Keeps its memory: no
-/// call allocates once a degree has been seen. One thread at a time.
+/// call for polynomials allocates once a degree has been seen. One thread at a time.
 ///
 /// Rounding: a Bernstein coefficient of a product is a mean of products of coefficients, so the
 /// largest derivatives bound the sum of absolute values of all that is added up for it, and γ_n

@@ -244,11 +244,13 @@ void report_influence(const std::vector<glm::dvec3>& points) {
 }  // namespace
 
 void bench_tensor() {
+  set_thread_count(1);
   const ThbLattice lattice = three_local_levels();
   report_building(lattice);
   report_evaluation(lattice);
   report_embedding(lattice);
   report_influence(torus_points());
+  set_thread_count(0);
 }
 
 }  // namespace espalier::bench

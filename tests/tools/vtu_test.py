@@ -186,7 +186,8 @@ class VtuTest(unittest.TestCase):
                 )
 
     def corners(self, grid, cell):
-        return [grid.GetCell(cell).GetPointId(k) for k in range(grid.GetCell(cell).GetNumberOfPoints())]
+        ids = grid.GetCell(cell).GetPointIds()
+        return [ids.GetId(k) for k in range(ids.GetNumberOfIds())]
 
     def test_control_nets_of_grids_are_cells_between_neighbours(self):
         for counts, cell_type, n_cells in [
@@ -210,7 +211,8 @@ class VtuTest(unittest.TestCase):
                 for i in range(n_cells):
                     self.assertEqual(grid.GetCellType(i), cell_type)
                     ids = self.corners(grid, i)
-                    places = [(p % counts[0], p // counts[0] % counts[1], p // counts[0] // counts[1]) for p in ids]
+                    nu, nv, _ = counts
+                    places = [(p % nu, p // nu % nv, p // nu // nv) for p in ids]
                     low = tuple(map(min, zip(*places)))
                     self.assertTrue(all(0 <= a - b <= 1 for p in places for a, b in zip(p, low)))
                     self.assertEqual(len(set(ids)), len(ids))
@@ -220,7 +222,8 @@ class VtuTest(unittest.TestCase):
                 self.assertEqual(len(seen), n_cells)
 
     def test_control_nets_of_hierarchies_tell_levels(self):
-        espalier("new", "thb", "--counts", "5", "5", "5", "--degree", "2", "2", "2", "-o", "thb.json")
+        degree = ["--degree", "2", "2", "2"]
+        espalier("new", "thb", "--counts", "5", "5", "5", *degree, "-o", "thb.json")
         box = ["0", "0", "0", "0.3333333333333333", "0.6666666666666666", "1"]
         espalier("refine", "thb.json", "--box", *box, "--level", "1", "-o", "thb.json")
         espalier("convert", "thb.json", "-o", "net.vtu")
