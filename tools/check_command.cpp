@@ -112,14 +112,16 @@ std::string text_of(const std::string& path, const CheckReport& report) {
 }
 
 /// Whether no patch with a face on the boundary moves: then the boundary is as simple as at rest.
-bool is_boundary_at_rest(const Volume& volume, std::span<const glm::dvec3> pose) {
-  const std::vector<glm::dvec3> moves = volume.displacements(pose);
+bool is_boundary_at_rest(const Volume& volume, const PosedControls& pose) {
+  const std::vector<glm::dvec3> moves = volume.displacements(pose.points);
+  const auto is_moved = [&](std::int32_t point) {
+    const auto p = static_cast<std::size_t>(point);
+    return moves[p] != glm::dvec3(0) ||
+           (!pose.weights.empty() && pose.weights[p] != volume.weights()[p]);
+  };
   for (std::size_t i = 0; i < volume.n_patches(); ++i) {
     const auto block = volume.block(i);
-    if (volume.patch(i).boundary_faces != 0 &&
-        std::any_of(block.begin(), block.end(), [&](std::int32_t p) {
-          return moves[static_cast<std::size_t>(p)] != glm::dvec3(0);
-        })) {
+    if (volume.patch(i).boundary_faces != 0 && std::any_of(block.begin(), block.end(), is_moved)) {
       return false;
     }
   }
@@ -134,12 +136,12 @@ std::vector<std::int32_t> patches_of(const Volume& volume, const Model& model,
   return patches;
 }
 
-void add_step(const InjectivityCheck& check, std::span<const glm::dvec3> pose,
+void add_step(const InjectivityCheck& check, const PosedControls& pose,
               const std::vector<std::string>& words, CheckReport& report) {
-  std::vector<glm::dvec3> motion(pose.size(), glm::dvec3(0));
+  std::vector<glm::dvec3> motion(pose.points.size(), glm::dvec3(0));
   double largest = 0;
   for (const IndexedVector& drag :
-       parse_indexed_vectors("drag", words, pose.size(), "control points")) {
+       parse_indexed_vectors("drag", words, pose.points.size(), "control points")) {
     motion[drag.index] = drag.vector;
     largest = std::max(largest, glm::length(drag.vector));
   }
@@ -186,7 +188,9 @@ CheckReport check_lattice(const Arguments& arguments, const Session& session) {
   const auto volume =
       std::make_shared<const Volume>(freeze(lattice, arguments.text("freeze"), session.progress));
   const InjectivityCheck check(volume);
-  const std::vector<glm::dvec3> pose = posed_controls(path, lattice);
+  const ControlPose posed = own_pose(lattice);
+  const std::vector<double> weights = point_weights(*volume, posed.weights);
+  const PosedControls pose(posed.points, weights);
   if (arguments.has("model")) {
     const Model model = read_model(arguments.text("model"));
     report.local = check.local(pose, patches_of(*volume, model, session.progress));

@@ -65,6 +65,20 @@ void check_output(const Scene& inputs, const std::string& path) {
   }
 }
 
+/// Whether the operation makes a lattice: `convert` and `new` do, of whatever they are given; the
+/// others keep the kind of what is named first.
+bool makes_lattice(const Operation& operation, const Arguments& arguments, const Scene& inputs) {
+  if (operation.name == "convert" || operation.name.starts_with("new ")) {
+    return true;
+  }
+  for (const Parameter& parameter : operation.parameters) {
+    if (parameter.is_positional && arguments.has(parameter.name)) {
+      return inputs.lattices.contains(arguments.texts(parameter.name).front());
+    }
+  }
+  return inputs.models.empty();
+}
+
 /// The output's path; the result may replace its own source, so never the name of an input.
 std::string result_name(const Scene& inputs, const std::string& path) {
   const bool is_input =
@@ -165,8 +179,7 @@ ExitStatus run(const Operation& operation, const Arguments& arguments, const Ses
     return run_poses(operation, complete, session);
   }
   Scene scene = open_inputs(operation, complete, session.progress);
-  // These turn a model into a lattice; the others keep the kind of what they are given.
-  if (operation.name == "convert" || operation.name.starts_with("new ")) {
+  if (makes_lattice(operation, complete, scene)) {
     check_lattice_output(output);
   } else {
     check_output(scene, output);

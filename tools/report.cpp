@@ -358,6 +358,24 @@ std::string lattice_report(const Lattice& lattice, bool is_json) {
       [&](const auto& held) { return is_json ? line(lattice_json(held)) : lattice_text(held); });
 }
 
+std::string lattice_report(const Lattice& lattice, const ModelInfluence& influence, bool is_json) {
+  const StatusCounts& n = influence.counts;
+  return lattice.visit([&](const auto& held) {
+    if (!is_json) {
+      return lattice_text(held) +
+             fmt::format(
+                 "  of the model {} points inside, {} on the border, {} outside, {} "
+                 "unconverged\n",
+                 n.inside, n.border, n.outside, n.unconverged) +
+             influence_text(influence.levels);
+    }
+    Json json = lattice_json(held);
+    json["model"] = counts_json(n);
+    add_influence(influence.levels, "influence", json);
+    return line(json);
+  });
+}
+
 std::string model_report(const Model& model, bool is_json) {
   if (is_json) {
     return line(model_json(model));

@@ -9,6 +9,7 @@
 #include "deform/scene/scene.h"
 #include "lattice/io/lattice.h"
 #include "lattice/topology/defect.h"
+#include "tools/influence_report.h"
 
 namespace espalier::tools {
 
@@ -21,6 +22,9 @@ struct LatticeReport {
 /// All of these end in a line feed.
 [[nodiscard]] std::string lattice_report(const LatticeReport& report, bool is_json);
 [[nodiscard]] std::string lattice_report(const Lattice& lattice, bool is_json);
+/// With how many points of a model control points move.
+[[nodiscard]] std::string lattice_report(const Lattice& lattice, const ModelInfluence& influence,
+                                         bool is_json);
 [[nodiscard]] std::string model_report(const Model& model, bool is_json);
 
 /// A picture of so many pixels, now in the file `path`.

@@ -13,6 +13,7 @@
 #include "lattice/io/lattice.h"
 #include "lattice/io/matrix_market.h"
 #include "tools/command.h"
+#include "tools/influence_report.h"
 
 namespace espalier::tools {
 namespace {
@@ -23,25 +24,6 @@ constexpr const char* kComment =
 
 using Json = nlohmann::ordered_json;
 
-/// What the levels of a hierarchy do to the model; levels: none for lattices of other types.
-std::string levels_text(const std::vector<LevelInfluence>& levels) {
-  std::string text;
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    text +=
-        fmt::format("  level {}: {} control points, one moves {:.6g} points on average, {} none\n",
-                    i, levels[i].n_controls, levels[i].mean_points, levels[i].n_without);
-  }
-  return text;
-}
-
-void add_levels(const std::vector<LevelInfluence>& levels, Json& json) {
-  for (const LevelInfluence& level : levels) {
-    json["levels"].push_back({{"control_points", level.n_controls},
-                              {"mean_points", level.mean_points},
-                              {"without_points", level.n_without}});
-  }
-}
-
 std::string report(const std::string& path, const StencilTable& weights, const StatusCounts& counts,
                    const std::vector<LevelInfluence>& levels, bool is_json) {
   if (!is_json) {
@@ -50,13 +32,13 @@ std::string report(const std::string& path, const StencilTable& weights, const S
                "  {} inside, {} on the border, {} outside, {} unconverged\n",
                path, weights.n_rows(), weights.n_controls(), weights.n_weights(), counts.inside,
                counts.border, counts.outside, counts.unconverged) +
-           levels_text(levels);
+           influence_text(levels);
   }
   Json json = {{"rows", weights.n_rows()},       {"columns", weights.n_controls()},
                {"weights", weights.n_weights()}, {"output", path},
                {"inside", counts.inside},        {"border", counts.border},
                {"outside", counts.outside},      {"unconverged", counts.unconverged}};
-  add_levels(levels, json);
+  add_influence(levels, "levels", json);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,8 +1,13 @@
 #include "deform/evaluate/volume_boundary.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <set>
+#include <string>
 
 #include "deform/evaluate/weights.h"
+#include "lattice/core/error.h"
 
 namespace espalier {
 namespace {
@@ -39,7 +44,64 @@ void add_face(const Volume& volume, std::size_t patch, int face, Binding& places
   }
 }
 
+/// Weights of an extraction below this are none.
+constexpr double kRoundOff = 1e-14;
+
+/// Which coefficients along its axis the Bézier points of a patch depend on that are at most
+/// `n_behind` behind one of its faces.
+std::vector<bool> first_layers(const Extraction& extraction, bool is_end, int n_behind) {
+  std::vector<bool> is_layer(static_cast<std::size_t>(extraction.n_coefficients), false);
+  for (int i = 0; i <= std::min(n_behind, extraction.degree); ++i) {
+    for (int k = 0; k < extraction.n_coefficients; ++k) {
+      if (std::abs(extraction.row(is_end ? extraction.degree - i : i, k)) > kRoundOff) {
+        is_layer[static_cast<std::size_t>(k)] = true;
+      }
+    }
+  }
+  return is_layer;
+}
+
+void require_boundary_face(const Volume& volume, std::int32_t face) {
+  if (face < 0 || static_cast<std::size_t>(face) / 6 >= volume.n_patches()) {
+    throw ParameterError("face " + std::to_string(face) +
+                         " does not exist: faces are 6 times a patch, of which there are " +
+                         std::to_string(volume.n_patches()) + ", plus a side from 0 to 5");
+  }
+  if (!volume.patch(static_cast<std::size_t>(face / 6)).is_on_boundary(face % 6)) {
+    throw ParameterError("face " + std::to_string(face) +
+                         " lies between two patches: only boundary faces can be locked");
+  }
+}
+
 }  // namespace
+
+std::vector<std::int32_t> unmoved_controls(const Volume& volume,
+                                           std::span<const std::int32_t> faces,
+                                           Continuity continuity) {
+  std::set<std::int32_t> controls;
+  for (const std::int32_t face : faces) {
+    require_boundary_face(volume, face);
+    const auto patch = static_cast<std::size_t>(face / 6);
+    const auto axis = static_cast<std::size_t>(face % 6 / 2);
+    const auto extraction = [&](std::size_t a) -> const Extraction& {
+      return volume.extractions()[volume.patch(patch).extractions[a]];
+    };
+    const std::vector<bool> is_layer =
+        first_layers(extraction(axis), face % 2 == 1, static_cast<int>(continuity));
+    std::size_t stride = 1;
+    for (std::size_t a = 0; a < axis; ++a) {
+      stride *= static_cast<std::size_t>(extraction(a).n_coefficients);
+    }
+    const std::span<const std::int32_t> block = volume.block(patch);
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      if (is_layer[i / stride % is_layer.size()]) {
+        const auto row = volume.stencils()[static_cast<std::size_t>(block[i])];
+        controls.insert(row.indices.begin(), row.indices.end());
+      }
+    }
+  }
+  return {controls.begin(), controls.end()};
+}
 
 BoundarySurface boundary_surface(const Volume& volume) {
   Binding places;

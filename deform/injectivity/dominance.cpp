@@ -22,10 +22,36 @@ bool find_frame(const BezierView& patch, glm::dmat3& frame) {
   return glm::determinant(frame) > 1e-9 * sizes && std::isfinite(sizes);
 }
 
+/// Of the size, in the frame, of all values of a patch about a centre; without weights 0, as then
+/// nothing depends on it.
+double reach_of(const BezierView& patch, const glm::dmat3& frame, const glm::dvec3& centre) {
+  double reach = 0;
+  for (std::size_t i = 0; i < patch.weights.size(); ++i) {
+    reach = std::max(reach, sum_of_sizes(frame * (patch.position(i) - centre)));
+  }
+  return reach;
+}
+
+/// Differences of a patch's numerators about a centre, and of its weights, along an axis.
+struct Differences {
+  BezierView patch;
+  glm::dvec3 centre;
+  std::size_t stride;
+  double slope;
+
+  [[nodiscard]] glm::dvec3 of_points(std::size_t i) const {
+    const glm::dvec3 difference = patch.points[i] - patch.points[i - stride];
+    return slope * (patch.is_rational() ? difference - of_weights(i) / slope * centre : difference);
+  }
+  [[nodiscard]] double of_weights(std::size_t i) const {
+    return patch.is_rational() ? slope * (patch.weights[i] - patch.weights[i - stride]) : 0;
+  }
+};
+
 }  // namespace
 
-double dominant_step(const BezierView& start, const BezierPatch* motion, double start_error,
-                     double motion_error) {
+double dominant_step(const BezierView& start, const BezierPatch* motion,
+                     const PatchErrors& errors) {
   constexpr double kRounding = 1e-13;  // of a product of 3 × 3 numbers, amply
   glm::dmat3 frame;
   if (start.is_pyramid || !find_frame(start, frame)) {
@@ -33,19 +59,29 @@ double dominant_step(const BezierView& start, const BezierPatch* motion, double 
   }
   const double frame_size =
       sum_of_sizes(frame[0]) + sum_of_sizes(frame[1]) + sum_of_sizes(frame[2]);
+  const glm::dvec3 centre = start.is_rational() ? start.value(glm::dvec3(0.5)) : glm::dvec3(0);
+  const double reach = reach_of(start, frame, centre) * (1 + 1e-9);
+  const double motion_reach =
+      motion == nullptr ? 0 : reach_of(*motion, frame, glm::dvec3(0)) * (1 + 1e-9);
+  // Taking the centre away costs as much again as the numbers are off, a few times.
+  const double n_errors = start.is_rational() ? 24 : 6;
   double step = kInfinity;
   std::size_t stride = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const auto n = static_cast<std::size_t>(start.degree[static_cast<std::size_t>(axis)] + 1);
     const double slope = static_cast<double>(n - 1);
+    const Differences differences{start, centre, stride, slope};
     for (std::size_t i = 0; i < start.points.size(); ++i) {
       if (i / stride % n == 0) {
         continue;
       }
-      const glm::dvec3 difference = slope * (start.points[i] - start.points[i - stride]);
+      const glm::dvec3 difference = differences.of_points(i);
       const glm::dvec3 column = frame * difference;
+      const double weight_slope =
+          std::abs(differences.of_weights(i)) * (1 + kRounding) + 2 * slope * errors.weights;
       const double lost =
-          frame_size * (kRounding * sum_of_sizes(difference) + 6 * slope * start_error);
+          frame_size * (kRounding * sum_of_sizes(difference) + n_errors * slope * errors.start) +
+          weight_slope * reach;
       const double excess =
           2 * column[axis] - sum_of_sizes(column) - (column[axis] < 0 ? kInfinity : 0) - lost;
       if (!(excess > 0)) {
@@ -54,8 +90,8 @@ double dominant_step(const BezierView& start, const BezierPatch* motion, double 
       if (motion != nullptr) {
         const glm::dvec3 moved = slope * (motion->points[i] - motion->points[i - stride]);
         const double change =
-            sum_of_sizes(frame * moved) +
-            frame_size * (kRounding * sum_of_sizes(moved) + 6 * slope * motion_error);
+            sum_of_sizes(frame * moved) + weight_slope * motion_reach +
+            frame_size * (kRounding * sum_of_sizes(moved) + 6 * slope * errors.motion);
         step = change > 0 ? std::min(step, excess / change * (1 - 1e-12)) : step;
       }
     }

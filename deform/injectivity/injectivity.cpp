@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 
 #include "deform/injectivity/dominance.h"
+#include "deform/injectivity/rational_patch.h"
 #include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
 #include "lattice/core/text_scanner.h"
@@ -66,19 +67,6 @@ double value_at(const BoundedPolynomial& polynomial, const glm::dvec3& uvw) {
   return value;
 }
 
-/// What a thread works in.
-struct Workspace {
-  DeterminantNets nets;
-  BezierPatch rest;
-  BezierPatch pose;
-  BoundedPolynomial polynomial;
-};
-
-Workspace& workspace() {
-  thread_local Workspace space;
-  return space;
-}
-
 /// Whether all are multiples of one vector, to the bit: the same vector, or none.
 bool is_parallel(std::span<const glm::dvec3> motion) {
   glm::dvec3 common(0);
@@ -93,16 +81,70 @@ bool is_parallel(std::span<const glm::dvec3> motion) {
   return true;
 }
 
-/// Equal weights cancel.
-void require_polynomial(const Volume& volume) {
-  const auto weights = volume.weights();
-  if (std::any_of(weights.begin(), weights.end(), [&](double w) { return w != weights.front(); })) {
-    throw LatticeError(
-        "the lattice has weights that differ: only lattices with equal weights can be certified");
+/// None if all are equal: equal weights cancel.
+std::span<const double> differing(std::span<const double> weights) {
+  const bool are_equal =
+      std::all_of(weights.begin(), weights.end(), [&](double w) { return w == weights.front(); });
+  return are_equal ? std::span<const double>() : weights;
+}
+
+void require_weights(std::span<const double> weights, const Volume& volume) {
+  const std::size_t n_weights = volume.weights().size();
+  if (!weights.empty() && weights.size() != n_weights) {
+    throw ParameterError(
+        fmt::format("the pose has {} weights, the volume {}", weights.size(), n_weights));
+  }
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (!(weights[i] > 0 && weights[i] <= kLargestCoordinate)) {
+      throw ParameterError(
+          fmt::format("weight {} of the pose is {}, must be positive and finite", i, weights[i]));
+    }
   }
 }
 
+bool is_any_moved(std::span<const std::int32_t> block, std::span<const glm::dvec3> moves) {
+  return std::any_of(block.begin(), block.end(), [&](std::int32_t p) {
+    return moves[static_cast<std::size_t>(p)] != glm::dvec3(0);
+  });
+}
+
 }  // namespace
+
+/// A volume's points somewhere, and what their coordinates and weights may be off by once they are
+/// Bézier points.
+struct InjectivityCheck::Frame {
+  std::vector<glm::dvec3> points;
+  std::span<const double> weights;  // #points, or empty: equal
+  double point_error = 0;
+  double weight_error = 0;
+  glm::dvec3 centre{0};  // about which homogeneous points are taken: where the control points are
+
+  [[nodiscard]] PatchErrors errors(double of_motion = 0) const {
+    return {point_error, of_motion, weight_error};
+  }
+  [[nodiscard]] HomogeneousPatch homogeneous(const BezierPatch& patch,
+                                             std::vector<glm::dvec4>& room) const {
+    homogeneous_points(patch, centre, room);
+    return {patch.degree, room, glm::dvec4(glm::dvec3(4 * point_error), weight_error)};
+  }
+};
+
+/// What a thread works in.
+struct InjectivityCheck::Workspace {
+  DeterminantNets nets;
+  BezierPatch rest;
+  BezierPatch pose;
+  BezierPatch motion;
+  std::vector<glm::dvec4> start_points;
+  std::vector<glm::dvec4> motion_points;
+  BoundedPolynomial polynomial;
+  std::array<BoundedPolynomial, 4> powers;
+};
+
+InjectivityCheck::Workspace& InjectivityCheck::workspace() {
+  thread_local Workspace space;
+  return space;
+}
 
 InjectivityCheck::InjectivityCheck(std::shared_ptr<const Volume> volume)
     : volume_(std::move(volume)) {
@@ -130,48 +172,59 @@ InjectivityCheck::InjectivityCheck(std::shared_ptr<const Volume> volume)
     longest = std::max(longest, static_cast<double>(extraction.n_coefficients));
   }
   rounding_ = 4 * kUnit * (longest + 4) * largest * extracted * extracted * extracted;
-  rest_error_ = rounding(volume_->rest_controls());
   is_rest_certain_.assign(volume_->n_patches(), 0);
-
-  require_polynomial(*volume_);
-  Workspace& space = workspace();
+  if (volume_->n_patches() > 0) {
+    is_mirrored_ = glm::determinant(
+                       volume_->bezier(0, volume_->rest_points()).derivative(glm::dvec3(0.5))) < 0;
+  }
+  rest_ = std::make_shared<const Frame>(frame_of(volume_->rest_controls()));
   for (std::size_t i = 0; i < volume_->n_patches(); ++i) {
-    volume_->bezier(i, volume_->rest_points(), space.rest);
-    if (i == 0) {
-      is_mirrored_ = glm::determinant(space.rest.derivative(glm::dvec3(0.5))) < 0;
-    }
-    patch_of(i, volume_->rest_points(), space.rest);
-    if (dominant_step(space.rest, nullptr, rest_error_, 0) > 0) {
-      is_rest_certain_[i] = 1;
-      continue;
-    }
-    space.nets.determinant(space.rest, common_collapse(space.rest, space.rest), rest_error_,
-                           space.polynomial);
-    const auto [least, most] = std::minmax_element(space.polynomial.coefficients.begin(),
-                                                   space.polynomial.coefficients.end());
-    const bool is_singular = *least >= -space.polynomial.error && *most <= space.polynomial.error;
-    const Positivity found = positivity(space.polynomial, kRestBoxes);
-    if (found.verdict == Verdict::Folded || is_singular) {
-      throw LatticeError(
-          fmt::format("the lattice at rest is {} in patch {} at (u, v, w) = ({}, {}, {}): it must "
-                      "be one-to-one "
-                      "at rest to tell where a pose folds",
-                      is_singular ? "singular" : "folded", i, found.witness.x, found.witness.y,
-                      found.witness.z));
-    }
-    is_rest_certain_[i] = found.verdict == Verdict::Certified ? 1 : 0;
+    check_rest(i);
   }
 }
 
-/// What a coordinate of a Bézier point may be off by.
-double InjectivityCheck::rounding(std::span<const glm::dvec3> controls) const {
-  return rounding_ * largest_coordinate(controls);
+void InjectivityCheck::check_rest(std::size_t i) {
+  Workspace& space = workspace();
+  patch_of(i, *rest_, space.rest);
+  if (dominant_step(space.rest, nullptr, rest_->errors()) > 0) {
+    is_rest_certain_[i] = 1;
+    return;
+  }
+  space.pose = space.rest;
+  find_determinant(space.rest, *rest_, collapse_of(i, *rest_), space.polynomial);
+  const auto [least, most] = std::minmax_element(space.polynomial.coefficients.begin(),
+                                                 space.polynomial.coefficients.end());
+  const bool is_singular = *least >= -space.polynomial.error && *most <= space.polynomial.error;
+  const Positivity found = positivity(space.polynomial, kRestBoxes);
+  if (found.verdict == Verdict::Folded || is_singular) {
+    throw LatticeError(fmt::format(
+        "the lattice at rest is {} in patch {} at (u, v, w) = ({}, {}, {}): it must "
+        "be one-to-one at rest to tell where a pose folds",
+        is_singular ? "singular" : "folded", i, found.witness.x, found.witness.y, found.witness.z));
+  }
+  is_rest_certain_[i] = found.verdict == Verdict::Certified ? 1 : 0;
+}
+
+InjectivityCheck::Frame InjectivityCheck::frame_of(const PosedControls& pose) const {
+  Frame frame;
+  frame.points = volume_->points(pose.points);
+  frame.weights = differing(pose.weights.empty() ? volume_->weights() : pose.weights);
+  frame.point_error =
+      rounding_ * std::max(largest_coordinate(pose.points), largest_coordinate(frame.points));
+  if (!frame.weights.empty()) {
+    const double largest = *std::max_element(frame.weights.begin(), frame.weights.end());
+    frame.point_error *= largest;
+    frame.weight_error = rounding_ * largest;
+    const Box box = box_of(frame.points);
+    frame.centre = 0.5 * (box.min + box.max);
+    frame.centre.x = is_mirrored_ ? -frame.centre.x : frame.centre.x;
+  }
+  return frame;
 }
 
 /// Patch i; seen in a mirror if that makes it right-handed at rest.
-void InjectivityCheck::patch_of(std::size_t i, std::span<const glm::dvec3> points,
-                                BezierPatch& out) const {
-  volume_->bezier(i, points, out);
+void InjectivityCheck::patch_of(std::size_t i, const Frame& frame, BezierPatch& out) const {
+  volume_->bezier(i, frame.points, frame.weights, out);
   if (is_mirrored_) {
     for (glm::dvec3& p : out.points) {
       p.x = -p.x;
@@ -179,41 +232,63 @@ void InjectivityCheck::patch_of(std::size_t i, std::span<const glm::dvec3> point
   }
 }
 
-void InjectivityCheck::check_patch(std::size_t i, std::span<const glm::dvec3> points,
-                                   double input_error, std::size_t most_boxes,
+/// Of the derivative of a patch of the frame; of a rational one times its weight's fourth power.
+void InjectivityCheck::find_determinant(const BezierPatch& patch, const Frame& frame,
+                                        const Collapse& collapse, BoundedPolynomial& out) const {
+  Workspace& space = workspace();
+  if (frame.weights.empty()) {
+    space.nets.determinant(patch, collapse, frame.point_error, out);
+  } else {
+    space.nets.rational_determinant(frame.homogeneous(patch, space.start_points), collapse, out);
+  }
+}
+
+/// The factors that patch i has at rest and in the pose: workspace().rest and .pose are these.
+Collapse InjectivityCheck::collapse_of(std::size_t i, const Frame& pose) const {
+  if (pose.weights.empty() && rest_->weights.empty()) {
+    return common_collapse(workspace().rest, workspace().pose);
+  }
+  return rational_collapse(*volume_, i, rest_->points, rest_->weights) &
+         rational_collapse(*volume_, i, pose.points, pose.weights);
+}
+
+void InjectivityCheck::check_patch(std::size_t i, const Frame& pose, std::size_t most_boxes,
                                    LocalInjectivity& out) const {
   Workspace& space = workspace();
   ++out.n_patches;
-  const std::span<const glm::dvec3> rest_points = volume_->rest_points();
   const auto block = volume_->block(i);
-  const bool is_moved = std::any_of(block.begin(), block.end(), [&](std::int32_t p) {
-    return points[static_cast<std::size_t>(p)] != rest_points[static_cast<std::size_t>(p)];
+  const bool is_moved = std::any_of(block.begin(), block.end(), [&](std::int32_t point) {
+    const auto p = static_cast<std::size_t>(point);
+    return pose.points[p] != rest_->points[p] ||
+           (!pose.weights.empty() && pose.weights[p] != volume_->weights()[p]);
   });
   if (!is_moved && is_rest_certain_[i] != 0) {
     return;
   }
-  patch_of(i, points, space.pose);
-  if (dominant_step(space.pose, nullptr, input_error, 0) > 0) {
+  patch_of(i, pose, space.pose);
+  if (dominant_step(space.pose, nullptr, pose.errors()) > 0) {
     return;
   }
-  patch_of(i, rest_points, space.rest);
-  const Collapse collapse = common_collapse(space.rest, space.pose);
-  space.nets.determinant(space.pose, collapse, input_error, space.polynomial);
+  patch_of(i, *rest_, space.rest);
+  const Collapse collapse = collapse_of(i, pose);
+  find_determinant(space.pose, pose, collapse, space.polynomial);
   const Positivity found = positivity(space.polynomial, most_boxes);
   if (found.verdict == Verdict::Folded) {
-    space.nets.determinant(space.rest, collapse, rest_error_, space.polynomial);
+    find_determinant(space.rest, *rest_, collapse, space.polynomial);
+    const double ratio =
+        weight_at(space.rest, found.witness) / weight_at(space.pose, found.witness);
     glm::dvec3 place = space.rest.value(found.witness);
     place.x = is_mirrored_ ? -place.x : place.x;
     out.folds.push_back(
-        {i, found.witness, place, found.value / value_at(space.polynomial, found.witness)});
+        {i, found.witness, place,
+         found.value / value_at(space.polynomial, found.witness) * std::pow(ratio, 4)});
   }
   for (const ParameterBox& box : found.undecided) {
     out.undecided.push_back({i, box});
   }
 }
 
-LocalInjectivity InjectivityCheck::local(std::span<const glm::dvec3> pose,
-                                         std::size_t most_boxes) const {
+LocalInjectivity InjectivityCheck::local(const PosedControls& pose, std::size_t most_boxes) const {
   std::vector<std::int32_t> all(volume_->n_patches());
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i] = static_cast<std::int32_t>(i);
@@ -221,18 +296,17 @@ LocalInjectivity InjectivityCheck::local(std::span<const glm::dvec3> pose,
   return local(pose, all, most_boxes);
 }
 
-LocalInjectivity InjectivityCheck::local(std::span<const glm::dvec3> pose,
+LocalInjectivity InjectivityCheck::local(const PosedControls& pose,
                                          std::span<const std::int32_t> patches,
                                          std::size_t most_boxes) const {
-  require_finite("pose", pose, volume_->n_controls());
-  const std::vector<glm::dvec3> points = volume_->points(pose);
-  const double input_error = rounding(pose);
+  require_finite("pose", pose.points, volume_->n_controls());
+  require_weights(pose.weights, *volume_);
+  const Frame posed = frame_of(pose);
   constexpr std::size_t kGrain = 64;
   std::vector<LocalInjectivity> parts((patches.size() + kGrain - 1) / kGrain);
   parallel_ranges(patches.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      check_patch(static_cast<std::size_t>(patches[i]), points, input_error, most_boxes,
-                  parts[i / kGrain]);
+      check_patch(static_cast<std::size_t>(patches[i]), posed, most_boxes, parts[i / kGrain]);
     }
   });
   LocalInjectivity result;
@@ -249,16 +323,53 @@ LocalInjectivity InjectivityCheck::local(std::span<const glm::dvec3> pose,
   return result;
 }
 
-SafeStep InjectivityCheck::largest_step(std::span<const glm::dvec3> pose,
+/// How the points move, with the weights of the start: homogeneous points move by w · motion.
+InjectivityCheck::Frame InjectivityCheck::motion_of(std::span<const glm::dvec3> motion,
+                                                    const Frame& start) const {
+  Frame moves;
+  moves.points = volume_->stencils().apply(motion);
+  moves.weights = start.weights;
+  moves.point_error = rounding_ * largest_coordinate(motion);
+  if (!moves.weights.empty()) {
+    moves.point_error *= *std::max_element(moves.weights.begin(), moves.weights.end());
+  }
+  return moves;
+}
+
+/// Of patch i, into workspace().powers.
+void InjectivityCheck::find_moving_determinant(std::size_t i, const Frame& start,
+                                               const Frame& moves, bool is_parallel) const {
+  Workspace& space = workspace();
+  patch_of(i, start, space.pose);
+  patch_of(i, moves, space.motion);
+  patch_of(i, *rest_, space.rest);
+  Collapse collapse = collapse_of(i, start);
+  if (start.weights.empty()) {
+    collapse = collapse & common_collapse(space.motion, space.motion);
+    space.nets.moving_determinant(
+        {space.pose, space.motion, is_parallel, start.point_error, moves.point_error}, collapse,
+        space.powers);
+    return;
+  }
+  collapse = collapse & rational_collapse(*volume_, i, moves.points, moves.weights);
+  const HomogeneousPatch homogeneous = start.homogeneous(space.pose, space.start_points);
+  HomogeneousPatch motion = moves.homogeneous(space.motion, space.motion_points);
+  for (glm::dvec4& p : space.motion_points) {
+    p.w = 0;
+  }
+  motion.error.w = 0;
+  space.nets.moving_rational_determinant(homogeneous, motion, is_parallel, collapse, space.powers);
+}
+
+SafeStep InjectivityCheck::largest_step(const PosedControls& pose,
                                         std::span<const glm::dvec3> motion,
                                         const SafeStepOptions& options) const {
-  require_finite("pose", pose, volume_->n_controls());
+  require_finite("pose", pose.points, volume_->n_controls());
   require_finite("motion", motion, volume_->n_controls());
-  const std::vector<glm::dvec3> points = volume_->points(pose);
-  const std::vector<glm::dvec3> moves = volume_->points(motion);
+  require_weights(pose.weights, *volume_);
+  const Frame start = frame_of(pose);
+  const Frame moves = motion_of(motion, start);
   const bool one_direction = is_parallel(motion);
-  const double start_error = rounding(pose);
-  const double motion_error = rounding(motion);
 
   /// What is left to look at: a patch, or, once it has been expanded, a box of it.
   struct Job {
@@ -271,23 +382,21 @@ SafeStep InjectivityCheck::largest_step(std::span<const glm::dvec3> pose,
   const auto is_later = [](const Job& a, const Job& b) { return a.lower > b.lower; };
   std::vector<Job> jobs;
   Workspace& space = workspace();
-  BezierPatch moving;
   for (std::size_t i = 0; i < volume_->n_patches(); ++i) {
-    const auto block = volume_->block(i);
-    if (std::any_of(block.begin(), block.end(), [&](std::int32_t p) {
-          return moves[static_cast<std::size_t>(p)] != glm::dvec3(0);
-        })) {
-      patch_of(i, points, space.pose);
-      patch_of(i, moves, moving);
-      jobs.push_back(
-          {dominant_step(space.pose, &moving, start_error, motion_error), i, false, {}, 0});
+    if (is_any_moved(volume_->block(i), moves.points)) {
+      patch_of(i, start, space.pose);
+      patch_of(i, moves, space.motion);
+      jobs.push_back({dominant_step(space.pose, &space.motion, start.errors(moves.point_error)),
+                      i,
+                      false,
+                      {},
+                      0});
     }
   }
   std::make_heap(jobs.begin(), jobs.end(), is_later);
 
   SafeStep result;
   double upper = options.most_step;
-  std::array<BoundedPolynomial, 4> powers;
   const auto add = [&](Job job) {
     const PositiveRange range = range_of(job.box, job.axis);
     if (range.is_negative) {
@@ -323,21 +432,12 @@ SafeStep InjectivityCheck::largest_step(std::span<const glm::dvec3> pose,
       add(std::move(high));
       continue;
     }
-    patch_of(job.patch, points, space.pose);
-    patch_of(job.patch, moves, moving);
-    patch_of(job.patch, volume_->rest_points(), space.rest);
-    Collapse collapse = common_collapse(space.rest, space.pose);
-    const Collapse of_motion = common_collapse(moving, moving);
-    for (std::size_t a = 0; a < 3; ++a) {
-      collapse.factors[a] = static_cast<std::uint8_t>(collapse.factors[a] & of_motion.factors[a]);
-    }
-    space.nets.moving_determinant({space.pose, moving, one_direction, start_error, motion_error},
-                                  collapse, powers);
-    job.box.shape = powers[0].shape;
+    find_moving_determinant(job.patch, start, moves, one_direction);
+    job.box.shape = space.powers[0].shape;
     job.box.n_powers = one_direction ? 2 : 4;
     for (std::size_t k = 0; k < job.box.n_powers; ++k) {
-      job.box.coefficients[k] = powers[k].coefficients;
-      job.box.errors[k] = powers[k].error;
+      job.box.coefficients[k] = space.powers[k].coefficients;
+      job.box.errors[k] = space.powers[k].error;
     }
     add(std::move(job));
   }

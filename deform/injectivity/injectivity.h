@@ -8,7 +8,7 @@
 /// sliver beyond a leaf's cube that it may hold points in (kLeafReach) and the seams where leaves
 /// meet only nearly are not. Factors that vanish at collapsed faces, such as (1 − w)² of pyramids,
 /// are divided out. Where a lattice is singular at rest, at a point of the boundary say, it stays
-/// undecided.
+/// undecided. A rational patch is certified by its homogeneous points, without division.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -21,6 +21,18 @@
 #include "lattice/volume/volume.h"
 
 namespace espalier {
+
+/// Where control points are posed. Of a rational volume the weights may be others than at rest.
+struct PosedControls {
+  // NOLINTBEGIN(google-explicit-constructor): points are a pose.
+  PosedControls(std::span<const glm::dvec3> controls, std::span<const double> point_weights = {})
+      : points(controls), weights(point_weights) {}
+  PosedControls(const std::vector<glm::dvec3>& controls) : points(controls) {}
+  // NOLINTEND(google-explicit-constructor)
+
+  std::span<const glm::dvec3> points;  ///< #controls, model units
+  std::span<const double> weights;     ///< #points of a rational volume; empty: as at rest
+};
 
 /// A place where space is folded.
 struct Fold {
@@ -63,38 +75,48 @@ struct SafeStepOptions {
 class InjectivityCheck {
  public:
   /// Throws LatticeError, naming a patch, if the lattice at rest is folded or singular throughout a
-  /// patch: then there is nothing to compare with; also for a volume with weights that differ,
-  /// whose patches are no polynomials. No volume: its patches are used by every call.
+  /// patch: then there is nothing to compare with. No volume: its patches are used by every call.
   explicit InjectivityCheck(std::shared_ptr<const Volume> volume);
 
   /// Of all patches, or of those listed. most_boxes: parts of a patch that may be looked at. Throws
-  /// ParameterError unless pose is #controls points within 1e18. A patch takes some microseconds,
-  /// one that does not move nothing. The same result for any number of threads.
-  [[nodiscard]] LocalInjectivity local(std::span<const glm::dvec3> pose,
+  /// ParameterError unless pose is #controls points within 1e18, with positive weights if any. A
+  /// patch takes some microseconds, a rational one some tens, one that does not move nothing. The
+  /// same result for any number of threads.
+  [[nodiscard]] LocalInjectivity local(const PosedControls& pose,
                                        std::size_t most_boxes = 2000) const;
-  [[nodiscard]] LocalInjectivity local(std::span<const glm::dvec3> pose,
+  [[nodiscard]] LocalInjectivity local(const PosedControls& pose,
                                        std::span<const std::int32_t> patches,
                                        std::size_t most_boxes = 2000) const;
 
   /// The largest t found such that pose + s · motion folds no patch that moves for 0 <= s < t:
-  /// certified, as local() is. motion: #controls. Throws LatticeError if such a patch is folded at
-  /// the start, ParameterError for values that are not finite.
-  [[nodiscard]] SafeStep largest_step(std::span<const glm::dvec3> pose,
-                                      std::span<const glm::dvec3> motion,
+  /// certified, as local() is; weights stay those of the pose. motion: #controls. Throws
+  /// LatticeError if such a patch is folded at the start, ParameterError for values that are not
+  /// finite.
+  [[nodiscard]] SafeStep largest_step(const PosedControls& pose, std::span<const glm::dvec3> motion,
                                       const SafeStepOptions& options = {}) const;
 
   [[nodiscard]] const Volume& volume() const { return *volume_; }
 
  private:
-  [[nodiscard]] double rounding(std::span<const glm::dvec3> controls) const;
-  void patch_of(std::size_t i, std::span<const glm::dvec3> points, BezierPatch& out) const;
-  void check_patch(std::size_t i, std::span<const glm::dvec3> points, double input_error,
-                   std::size_t most_boxes, LocalInjectivity& out) const;
+  struct Frame;
+  struct Workspace;
+  static Workspace& workspace();
+  [[nodiscard]] Frame frame_of(const PosedControls& pose) const;
+  [[nodiscard]] Frame motion_of(std::span<const glm::dvec3> motion, const Frame& start) const;
+  void patch_of(std::size_t i, const Frame& frame, BezierPatch& out) const;
+  void find_determinant(const BezierPatch& patch, const Frame& frame, const Collapse& collapse,
+                        BoundedPolynomial& out) const;
+  void find_moving_determinant(std::size_t i, const Frame& start, const Frame& moves,
+                               bool is_parallel) const;
+  [[nodiscard]] Collapse collapse_of(std::size_t i, const Frame& pose) const;
+  void check_rest(std::size_t i);
+  void check_patch(std::size_t i, const Frame& pose, std::size_t most_boxes,
+                   LocalInjectivity& out) const;
 
   std::shared_ptr<const Volume> volume_;
-  double rounding_ = 0;  // of a point, for control points of size 1
-  double rest_error_ = 0;
-  bool is_mirrored_ = false;           // patches are left-handed at rest
+  double rounding_ = 0;       // of a point, for control points of size 1
+  bool is_mirrored_ = false;  // patches are left-handed at rest
+  std::shared_ptr<const Frame> rest_;
   std::vector<char> is_rest_certain_;  // #patches: positive throughout at rest
 };
 

@@ -104,4 +104,15 @@ std::vector<double> point_weights(const Model& model, std::span<const std::strin
   return weights;
 }
 
+std::vector<glm::dvec3> selected_points(const Model& model, std::span<const std::string> only) {
+  const std::vector<double> weights = point_weights(model, only, "");
+  std::vector<glm::dvec3> points;
+  for (std::size_t i = 0; i < model.points().size(); ++i) {
+    if (weights.empty() || weights[i] > 0) {
+      points.push_back(model.points()[i]);
+    }
+  }
+  return points;
+}
+
 }  // namespace espalier

@@ -2,6 +2,7 @@
 
 /// Which points of a model take part, and how much.
 
+#include <glm/vec3.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,5 +25,9 @@ namespace espalier {
 [[nodiscard]] std::vector<double> point_weights(const Model& model,
                                                 std::span<const std::string> only,
                                                 const std::string& weights_file);
+
+/// The points that take part, in their order. only: as above. Throws as point_weights().
+[[nodiscard]] std::vector<glm::dvec3> selected_points(const Model& model,
+                                                      std::span<const std::string> only);
 
 }  // namespace espalier

@@ -50,6 +50,12 @@ ControlPose pose_of(const Scene& scene, const Arguments& arguments, std::size_t 
                                : own_pose(lattice_in(scene, lattice));
 }
 
+/// The weights of control points at rest, of a lattice that has them.
+std::span<const double> rest_weights(const Lattice& lattice) {
+  const auto* tensor = lattice.as<TensorLattice>();
+  return tensor == nullptr ? std::span<const double>() : std::span<const double>(tensor->weights);
+}
+
 /// An option that goes with each lattice must be given as often as they are, or not at all.
 void require_one_for_each_lattice(const Arguments& arguments, const std::string& name) {
   const std::size_t n = arguments.texts(name).size();
@@ -127,9 +133,11 @@ LatticeAction act(Scene& scene, const Arguments& arguments, std::size_t i,
   const Volume& volume = *bound().volume;
   const std::span<const glm::dvec3> rest = volume.rest_controls();
   const std::vector<glm::dvec3> pose = locked_pose(std::move(asked.points), rest, bound().lock);
-  LatticeAction action{{bound().volume, bound().binding, volume.displacements(pose),
-                        point_weights(volume, asked.weights)},
-                       {}};
+  const std::vector<double> weights = locked_weights(
+      std::move(asked.weights), rest_weights(lattice_in(scene, lattice)), bound().lock);
+  LatticeAction action{
+      {bound().volume, bound().binding, volume.displacements(pose), point_weights(volume, weights)},
+      {}};
   const bool is_at_rest = std::ranges::equal(pose, rest);
   if (bound().outside == "keep" && !is_at_rest && bound().binding->counts().outside > 0) {
     scene = with_crossings(scene, model, lattice);
@@ -262,7 +270,8 @@ std::vector<Operation> deform_operations() {
          .help = "keep the lattice still where the model leaves it, so that the motion joins what "
                  "stays in position (C0), slope too (C1) or curvature too (C2): at the boundary "
                  "faces that the model crosses, or, as C1:0,5,7, at these faces of the lattice's "
-                 "file; repeats in the lattices' order, or stands for all (default none)",
+                 "file, or, as C1:u0,w1, at these sides of a lattice without cells; repeats in the "
+                 "lattices' order, or stands for all (default none)",
          .is_list = true},
         {.name = "normals",
          .type = Type::Choice,

@@ -41,14 +41,20 @@ std::string vtu_of(const Scene& scene, const Arguments& arguments, const Progres
   const bool is_rest = arguments.flag("rest");
   const auto controls = is_rest ? lattice.rest_points() : lattice.posed_points();
   if (!arguments.flag("volume")) {
-    const SubdivisionLattice& cells = subdivision_lattice_in(scene, name, ".vtu without --volume");
-    return vtu_text(*cells.complex, controls);
+    return lattice.visit([&](const auto& held) {
+      if constexpr (requires { *held.complex; }) {
+        return vtu_text(*held.complex, controls);
+      } else {
+        return vtu_text(control_net(held), controls);
+      }
+    });
   }
   const Volume volume = freeze(lattice, arguments.text("freeze"), progress);
   const auto* tensor = lattice.as<TensorLattice>();
   const bool has_weights = tensor != nullptr && !is_rest;
-  return vtu_text(volume, volume.points(controls),
-                  has_weights ? tensor->posed_weights() : std::span<const double>());
+  return vtu_text(
+      volume, volume.points(controls),
+      has_weights ? point_weights(volume, tensor->posed_weights()) : std::vector<double>());
 }
 
 Scene save(const Scene& scene, const Arguments& arguments, const Progress& progress) {

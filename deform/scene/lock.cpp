@@ -3,6 +3,7 @@
 #include "deform/scene/lock.h"
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <optional>
@@ -18,22 +19,29 @@ namespace {
 
 /// What an option says.
 struct LockOption {
-  std::optional<Continuity> continuity;            ///< none: no lock
-  std::optional<std::vector<std::int32_t>> faces;  ///< none: those that the model crosses
+  std::optional<Continuity> continuity;  ///< none: no lock
+  bool names_faces = false;              ///< else those that the model crosses
+  std::vector<std::int32_t> faces = {};  ///< by number
+  std::vector<int> sides = {};           ///< by name, of 6
 };
 
-/// Numbers between commas; nothing if one is none.
-std::optional<std::vector<std::int32_t>> parse_faces(std::string_view text) {
-  std::vector<std::int32_t> faces;
+/// Numbers or sides between commas; false if one is neither.
+bool parse_faces(std::string_view text, LockOption& option) {
+  static constexpr std::array<std::string_view, 6> kSides = {"u0", "u1", "v0", "v1", "w0", "w1"};
   while (true) {
     const std::size_t comma = std::min(text.find(','), text.size());
+    const std::string_view word = text.substr(0, comma);
+    const auto side = std::find(kSides.begin(), kSides.end(), word);
     std::int64_t face = -1;
-    if (!parse_integer(text.substr(0, comma), face) || !std::in_range<std::int32_t>(face)) {
-      return std::nullopt;
+    if (side != kSides.end()) {
+      option.sides.push_back(static_cast<int>(side - kSides.begin()));
+    } else if (parse_integer(word, face) && std::in_range<std::int32_t>(face)) {
+      option.faces.push_back(static_cast<std::int32_t>(face));
+    } else {
+      return false;
     }
-    faces.push_back(static_cast<std::int32_t>(face));
     if (comma == text.size()) {
-      return faces;
+      return true;
     }
     text.remove_prefix(comma + 1);
   }
@@ -52,13 +60,13 @@ LockOption parse_lock(const std::string& option) {
       result.continuity = continuity;
     }
   }
-  if (colon != std::string::npos) {
-    result.faces = parse_faces(std::string_view(option).substr(colon + 1));
-  }
-  if (!result.continuity || (colon != std::string::npos && !result.faces)) {
+  result.names_faces = colon != std::string::npos;
+  const bool are_faces =
+      !result.names_faces || parse_faces(std::string_view(option).substr(colon + 1), result);
+  if (!result.continuity || !are_faces) {
     throw ParameterError("'lock' is '" + option +
                          "', must be none, C0, C1 or C2, or C0:, C1: or C2: and the numbers of "
-                         "boundary faces with commas between");
+                         "boundary faces with commas between, or sides of a grid, u0 to w1");
   }
   return result;
 }
@@ -74,6 +82,29 @@ std::vector<std::int32_t> crossed_faces(const Crossings& crossings) {
     faces.push_back(crossing.boundary_face);
   }
   return faces;
+}
+
+/// All faces of a side of a grid, as boundary_surface() numbers them.
+void add_side(const Volume& volume, int side, std::vector<std::int32_t>& faces) {
+  const std::size_t n_before = faces.size();
+  for (std::size_t i = 0; i < volume.n_patches(); ++i) {
+    if (volume.patch(i).is_on_boundary(side)) {
+      faces.push_back(static_cast<std::int32_t>(6 * i) + side);
+    }
+  }
+  if (faces.size() == n_before) {
+    throw ParameterError(std::string("side ") + "uvw"[side / 2] + (side % 2 == 0 ? "0" : "1") +
+                         " does not exist: the lattice is closed to a ring there");
+  }
+}
+
+/// The control points that hold faces still: those of a subdivision lattice by its own rules, else
+/// by the patches.
+std::vector<std::int32_t> controls_to_lock(const Lattice& lattice, const Volume& volume,
+                                           Continuity continuity, const Lock& lock) {
+  const auto* subdivision = lattice.as<SubdivisionLattice>();
+  return subdivision != nullptr ? unmoved_controls(*subdivision, lock.faces, continuity)
+                                : unmoved_controls(volume, lock.faces, continuity);
 }
 
 /// By a subdivision lattice's own faces, which locks name; else by the faces of patches.
@@ -102,19 +133,25 @@ Scene with_lock(const Scene& scene, const std::string& model, const std::string&
   if (scene.bound.at({model, lattice}).lock.option == option) {
     return scene;
   }
-  LockOption parsed = parse_lock(option);
-  Lock lock{option, {}, {}};
+  const LockOption parsed = parse_lock(option);
+  Lock lock{option, parsed.faces, {}};
   Scene result = scene;
   if (parsed.continuity) {
-    const SubdivisionLattice& subdivision = subdivision_lattice_in(scene, lattice, "a lock");
-    if (!parsed.faces) {
+    const Lattice& at_rest = lattice_in(scene, lattice);
+    const std::shared_ptr<const Volume> volume = scene.bound.at({model, lattice}).volume;
+    if (!parsed.names_faces) {
       result = with_crossings(scene, model, lattice);
-      parsed.faces = crossed_faces(*result.bound.at({model, lattice}).crossings);
+      lock.faces = crossed_faces(*result.bound.at({model, lattice}).crossings);
     }
-    lock.faces = *std::move(parsed.faces);
-    sort_unique(lock.faces);
     try {
-      lock.controls = unmoved_controls(subdivision, lock.faces, *parsed.continuity);
+      if (!parsed.sides.empty() && at_rest.as<SubdivisionLattice>() != nullptr) {
+        throw ParameterError("cells have no sides with names: give the numbers of faces");
+      }
+      for (const int side : parsed.sides) {
+        add_side(*volume, side, lock.faces);
+      }
+      sort_unique(lock.faces);
+      lock.controls = controls_to_lock(at_rest, *volume, *parsed.continuity, lock);
     } catch (const ParameterError& error) {
       throw ParameterError("'lock' is '" + option + "': in " + lattice + " " + error.what());
     }
@@ -129,6 +166,16 @@ std::vector<glm::dvec3> locked_pose(std::vector<glm::dvec3> pose, std::span<cons
     pose[static_cast<std::size_t>(control)] = rest[static_cast<std::size_t>(control)];
   }
   return pose;
+}
+
+std::vector<double> locked_weights(std::vector<double> weights, std::span<const double> rest,
+                                   const Lock& lock) {
+  for (const std::int32_t control : lock.controls) {
+    if (!weights.empty()) {
+      weights[static_cast<std::size_t>(control)] = rest[static_cast<std::size_t>(control)];
+    }
+  }
+  return weights;
 }
 
 std::vector<std::int32_t> torn_faces(const Crossings& crossings, std::span<const glm::dvec3> rest,

@@ -14,9 +14,10 @@
 namespace espalier {
 
 /// The scene with a lock for the model's binding to the lattice, which must exist. option: "none";
-/// "C0", "C1" or "C2": the boundary faces that the model's edges cross; "C1:0,5,7": these faces.
-/// A lock acts on poses, not on the binding. Throws ParameterError for another option, or faces
-/// that are not on the boundary.
+/// "C0", "C1" or "C2": the boundary faces that the model's edges cross; "C1:0,5,7": these faces, of
+/// a subdivision lattice its own, else 6 · patch + side; "C1:u0,w1": of any other lattice all faces
+/// of these sides, where u is least and w is most. A lock acts on poses, not on the binding. Throws
+/// ParameterError for another option, or faces that are not on the boundary.
 [[nodiscard]] Scene with_lock(const Scene& scene, const std::string& model,
                               const std::string& lattice, const std::string& option);
 
@@ -28,6 +29,11 @@ namespace espalier {
 [[nodiscard]] std::vector<glm::dvec3> locked_pose(std::vector<glm::dvec3> pose,
                                                   std::span<const glm::dvec3> rest,
                                                   const Lock& lock);
+
+/// The same of the weights of a pose: those that a lock keeps are those at rest. weights:
+/// #controls, or empty: then so is the result; rest: as many.
+[[nodiscard]] std::vector<double> locked_weights(std::vector<double> weights,
+                                                 std::span<const double> rest, const Lock& lock);
 
 /// The model's faces that tear because the lattice moves where they leave it, by more than
 /// `tolerance`, model units: ascending, each once. rest, pose: #controls.

@@ -141,8 +141,8 @@ std::vector<glm::dvec3> posed_controls(const std::string& name, const Lattice& l
   ControlPose pose = own_pose(lattice);
   if (!pose.weights.empty()) {
     throw LatticeError(name +
-                       ": its pose_weights are not its weights at rest, which is for deform "
-                       "and eval only");
+                       ": its pose_weights are not its weights at rest, which is for deform, "
+                       "eval and check only");
   }
   return std::move(pose.points);
 }

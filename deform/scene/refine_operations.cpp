@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "deform/embed/thb_region.h"
+#include "deform/model/point_selection.h"
 #include "deform/model/surface_model.h"
 #include "deform/scene/lattice_parameters.h"
 #include "deform/scene/operations.h"
@@ -35,18 +37,19 @@ int levels_of(const Arguments& arguments) {
   return levels;
 }
 
-Lattice refined_by(const SubdivisionLattice& lattice, const Arguments& arguments,
+Lattice refined_by(const SubdivisionLattice& lattice, const Scene&, const Arguments& arguments,
                    const Progress& progress) {
-  require_absent(arguments, {"box", "level"}, "thb lattices");
+  require_absent(arguments, {"box", "model", "only", "grow", "level"}, "thb lattices");
   require_absent(arguments, {"elevate"}, "bezier, bspline and nurbs lattices");
   SubdivisionLattice source = lattice;
   source.scheme = scheme_of(arguments, lattice.scheme);
   return refined(source, levels_of(arguments), progress);
 }
 
-Lattice refined_by(const TensorLattice& lattice, const Arguments& arguments, const Progress&) {
+Lattice refined_by(const TensorLattice& lattice, const Scene&, const Arguments& arguments,
+                   const Progress&) {
   require_absent(arguments, {"scheme"}, "subdivision lattices");
-  require_absent(arguments, {"box", "level"}, "thb lattices");
+  require_absent(arguments, {"box", "model", "only", "grow", "level"}, "thb lattices");
   TensorLattice result = lattice;
   if (!arguments.flag("elevate")) {
     for (int level = levels_of(arguments); level > 0; --level) {
@@ -78,20 +81,42 @@ ThbLattice refined_everywhere(ThbLattice lattice) {
   return lattice;
 }
 
-Lattice refined_by(const ThbLattice& lattice, const Arguments& arguments, const Progress&) {
+/// Where the selected points of a model are.
+Lattice refined_under_model(const ThbLattice& lattice, const Model& model,
+                            const Arguments& arguments, int level, const Progress& progress) {
+  const std::vector<std::string> only = arguments.texts("only");
+  const std::vector<glm::dvec3> points = selected_points(model, only);
+  const int n_rings = arguments.has("grow") ? arguments.integer("grow") : 0;
+  try {
+    return refined_under(lattice, points, level, n_rings, progress);
+  } catch (const ParameterError& error) {
+    throw ParameterError("'model', --level and --grow: " + std::string(error.what()));
+  }
+}
+
+Lattice refined_by(const ThbLattice& lattice, const Scene& scene, const Arguments& arguments,
+                   const Progress& progress) {
   require_absent(arguments, {"scheme"}, "subdivision lattices");
   require_absent(arguments, {"elevate"}, "bezier, bspline and nurbs lattices");
+  if (!arguments.has("model")) {
+    require_absent(arguments, {"only", "grow"}, "a --model");
+  }
+  const int level = arguments.has("level") ? arguments.integer("level") : 1;
+  if (arguments.has("model")) {
+    require_absent(arguments, {"levels", "box"}, "other ways than under a --model");
+    return refined_under_model(lattice, model_in(scene, arguments.text("model")), arguments, level,
+                               progress);
+  }
   if (arguments.has("box")) {
     require_absent(arguments, {"levels"}, "refining everywhere, --level says how finely a box is");
     const std::vector<double> box = arguments.numbers("box");
-    const int level = arguments.has("level") ? arguments.integer("level") : 1;
     return with_cells(lattice, level,
                       cells_of_box(*lattice.hierarchy, level, {box[0], box[1], box[2]},
                                    {box[3], box[4], box[5]}));
   }
-  require_absent(arguments, {"level"}, "a --box");
+  require_absent(arguments, {"level"}, "a --box or a --model");
   ThbLattice result = lattice;
-  for (int level = levels_of(arguments); level > 0; --level) {
+  for (int left = levels_of(arguments); left > 0; --left) {
     result = refined_everywhere(std::move(result));
   }
   return result;
@@ -103,12 +128,12 @@ Scene refine_object(const Scene& scene, const Arguments& arguments, const Progre
   if (scene.models.contains(name)) {
     require_absent(arguments, {"scheme"},
                    "lattices; a model is refined as a Catmull-Clark surface");
-    require_absent(arguments, {"elevate", "box", "level"}, "lattices");
+    require_absent(arguments, {"elevate", "box", "model", "only", "grow", "level"}, "lattices");
     return with_model(scene, output,
                       refined_model(model_in(scene, name), levels_of(arguments), output));
   }
   return with_lattice(scene, output, lattice_in(scene, name).visit([&](const auto& lattice) {
-    return refined_by(lattice, arguments, progress);
+    return refined_by(lattice, scene, arguments, progress);
   }));
 }
 
@@ -139,9 +164,21 @@ std::vector<Operation> refine_operations() {
          .type = Type::Numbers,
          .help = "of a thb lattice: only this box u0 v0 w0 u1 v1 w1 of [0,1]^3, along its cells",
          .count = 6},
+        {.name = "model",
+         .type = Type::Model,
+         .help = "of a thb lattice: only the cells that hold points of this model at rest"},
+        {.name = "only",
+         .type = Type::Text,
+         .help = "of --model: only the points of this group or object, or @FILE: of these indices; "
+                 "may repeat (default: all points)",
+         .is_list = true},
+        {.name = "grow",
+         .type = Type::Integer,
+         .help = "of --model: so many rings of cells more on every level (default 0)"},
         {.name = "level",
          .type = Type::Integer,
-         .help = "what the box is refined to, from cells of the level before (default 1)"},
+         .help = "what the box, or up to what the model's cells are refined to, from cells of the "
+                 "level before (default 1)"},
         result_parameter("the refined lattice or model")},
        refine_object},
   };

@@ -84,23 +84,6 @@ TensorAxis axis_of(int axis, int n_controls, int degree, Ends ends) {
   }
 }
 
-/// The points of a model that the lattice is fitted to.
-std::vector<glm::dvec3> points_to_fit(const Model& model, const Arguments& arguments) {
-  const std::vector<std::string> only = arguments.texts("only");
-  const std::vector<double> weights = point_weights(model, only, "");
-  std::vector<glm::dvec3> points(model.points().begin(), model.points().end());
-  if (!weights.empty()) {
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (weights[i] > 0) {
-        points[n++] = points[i];
-      }
-    }
-    points.resize(n);
-  }
-  return points;
-}
-
 OrientedBox box_of(const Scene& scene, const Arguments& arguments) {
   constexpr double kUsualPadding = 0.05;
   if (!arguments.has("fit")) {
@@ -122,7 +105,8 @@ OrientedBox box_of(const Scene& scene, const Arguments& arguments) {
   if (arguments.has("min") || arguments.has("max")) {
     throw ParameterError("'fit' and --min, --max exclude each other");
   }
-  const auto points = points_to_fit(model_in(scene, arguments.text("fit")), arguments);
+  const std::vector<std::string> only = arguments.texts("only");
+  const auto points = selected_points(model_in(scene, arguments.text("fit")), only);
   const double padding = arguments.has("padding") ? arguments.number("padding") : kUsualPadding;
   const bool is_principal = arguments.has("axes") && arguments.text("axes") == "principal";
   try {

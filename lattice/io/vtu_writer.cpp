@@ -19,6 +19,9 @@
 namespace espalier {
 namespace {
 
+constexpr std::uint8_t kVtkVertex = 1;
+constexpr std::uint8_t kVtkLine = 3;
+constexpr std::uint8_t kVtkQuad = 9;
 constexpr std::uint8_t kVtkHexahedron = 12;
 constexpr std::uint8_t kVtkPolyhedron = 42;
 constexpr std::uint8_t kVtkBezierHexahedron = 79;
@@ -92,6 +95,7 @@ struct Grid {
   std::vector<std::int64_t> offsets;  ///< ends of the cells in `connectivity`
   std::vector<std::uint8_t> types;
   std::vector<std::int32_t> degrees;       ///< three a cell, or empty
+  std::vector<std::int32_t> levels;        ///< one a cell, or empty
   std::vector<std::int64_t> faces;         ///< of a polyhedron: how many, then each with its length
   std::vector<std::int64_t> face_offsets;  ///< ends of the cells in `faces`, -1 for other cells
 };
@@ -113,6 +117,11 @@ std::string text_of(const Grid& grid) {
   if (!grid.degrees.empty()) {
     text += "<CellData HigherOrderDegrees=\"HigherOrderDegrees\">\n";
     append_array(text, "HigherOrderDegrees", 3, std::span<const std::int32_t>(grid.degrees));
+    text += "</CellData>\n";
+  }
+  if (!grid.levels.empty()) {
+    text += "<CellData Scalars=\"Level\">\n";
+    append_array(text, "Level", grid.levels);
     text += "</CellData>\n";
   }
   text += "<Points>\n";
@@ -311,6 +320,25 @@ std::string vtu_text(const CellComplex& complex, std::span<const glm::dvec3> poi
       append_polyhedron(grid, complex, cell);
     }
     grid.offsets.push_back(static_cast<std::int64_t>(grid.connectivity.size()));
+  }
+  return text_of(grid);
+}
+
+std::string vtu_text(const ControlNet& net, std::span<const glm::dvec3> points) {
+  Grid grid;
+  grid.points.assign(points.begin(), points.end());
+  grid.levels = net.levels;
+  for (std::size_t i = 0; i < net.cells.n_rows(); ++i) {
+    const std::span<const std::int32_t> corners = net.cells[i];
+    for (std::size_t n = 0; n < corners.size(); ++n) {
+      // Two of the corners along v are the other way round in VTK, which goes round a face.
+      grid.connectivity.push_back(corners[corners.size() > 2 ? kVtkCorners[n] : n]);
+    }
+    grid.offsets.push_back(static_cast<std::int64_t>(grid.connectivity.size()));
+    grid.types.push_back(corners.size() == 8   ? kVtkHexahedron
+                         : corners.size() == 4 ? kVtkQuad
+                         : corners.size() == 2 ? kVtkLine
+                                               : kVtkVertex);
   }
   return text_of(grid);
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "lattice/tensor/control_net.h"
 #include "lattice/topology/cell_complex.h"
 #include "lattice/volume/volume.h"
 
@@ -33,6 +34,10 @@ namespace espalier {
 /// The cells of a lattice, in their order: hexahedra as such, the others as polyhedra. points:
 /// #vertices. Throws ParameterError for another number. O(n).
 [[nodiscard]] std::string vtu_text(const CellComplex& complex, std::span<const glm::dvec3> points);
+
+/// The net of a lattice's control points: hexahedra, quadrilaterals, lines and vertices; of a
+/// hierarchy with the level of each as CellData "Level". points: #controls. O(n).
+[[nodiscard]] std::string vtu_text(const ControlNet& net, std::span<const glm::dvec3> points);
 
 /// Whether a path's extension is .vtu, in any case.
 [[nodiscard]] bool is_vtu_path(const std::string& path);

@@ -12,6 +12,7 @@
 
 #include "lattice/core/error.h"
 #include "lattice/core/text_scanner.h"
+#include "lattice/tensor/flatness.h"
 
 namespace espalier {
 namespace {
@@ -351,6 +352,10 @@ TensorLattice make_tensor_lattice(TensorKind kind, const std::array<TensorAxis, 
   lattice.axes = axes;
   lattice.rest.reserve(n_controls_of(axes));
   for (int axis = 0; axis < 3; ++axis) {
+    if (!(box.half_sizes[axis] > 0 && std::isfinite(box.half_sizes[axis]))) {
+      throw ParameterError(fmt::format("the box has no thickness along {}: its half size is {}",
+                                       "uvw"[axis], box.half_sizes[axis]));
+    }
     if (kind == TensorKind::Bezier && !axes[as_size(axis)].is_bezier()) {
       throw ParameterError(
           fmt::format("a Bézier lattice of degree {} has {} control points along {}, not {}",
@@ -408,6 +413,10 @@ void require_valid(const TensorLattice& lattice) {
 
 Volume freeze(const TensorLattice& lattice) {
   require_valid(lattice);
+  const std::array<int, 3> counts = lattice.counts();
+  if (std::find(counts.begin(), counts.end(), 1) == counts.end()) {
+    require_thickness(lattice.rest);
+  }
   const std::array<FrozenAxis, 3> axes = {frozen(lattice.axes[0]), frozen(lattice.axes[1]),
                                           frozen(lattice.axes[2])};
   VolumeTables tables;

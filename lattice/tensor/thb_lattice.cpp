@@ -12,6 +12,7 @@
 
 #include "lattice/core/error.h"
 #include "lattice/core/text_scanner.h"
+#include "lattice/tensor/flatness.h"
 
 namespace espalier {
 namespace {
@@ -239,6 +240,7 @@ ThbLattice with_cells(const ThbLattice& lattice, int level, std::span<const Grid
 
 Volume freeze(const ThbLattice& lattice) {
   require_valid(lattice);
+  require_thickness(lattice.rest);
   VolumeTables tables;
   add_patches(*lattice.hierarchy, tables);
   tables.stencils = coefficients(*lattice.hierarchy);

@@ -69,25 +69,26 @@ class PatchGrid {
 
   [[nodiscard]] bool is_empty() const { return cells_.empty(); }
 
-  /// The place of x, if x is farther than about the margin from every bound, and one patch only
-  /// holds it; else nothing, and x may be anywhere. O(1).
-  [[nodiscard]] std::optional<Place> find(const glm::dvec3& x) const {
-    if (cells_.empty()) {
-      return std::nullopt;
-    }
+  /// The patch that holds x, if x is farther than about the margin from every bound, and one patch
+  /// only holds it; else -1, and x may be anywhere. Not for an empty grid. O(1).
+  [[nodiscard]] std::int32_t find_patch(const glm::dvec3& x) const {
     const glm::dvec3 at = to_frame_ * (x - origin_);
     const std::int32_t i = intervals_[0].find(at.x);
     const std::int32_t j = intervals_[1].find(at.y);
     const std::int32_t k = intervals_[2].find(at.z);
-    if ((i | j | k) < 0) {
-      return std::nullopt;
-    }
-    const std::int32_t patch = cells_[cell(i, j, k)];
-    if (patch < 0) {
-      return std::nullopt;
-    }
+    return (i | j | k) < 0 ? -1 : cells_[cell(i, j, k)];
+  }
+
+  /// Where in a patch that find_patch() gave x is.
+  [[nodiscard]] glm::dvec3 uvw_in(std::int32_t patch, const glm::dvec3& x) const {
     const ToLocal& local = to_local_[static_cast<std::size_t>(patch)];
-    return Place{patch, local.inverse * (x - local.centre) + 0.5};
+    return local.inverse * (x - local.centre) + 0.5;
+  }
+
+  /// Both; nothing if the grid is empty.
+  [[nodiscard]] std::optional<Place> find(const glm::dvec3& x) const {
+    const std::int32_t patch = cells_.empty() ? -1 : find_patch(x);
+    return patch < 0 ? std::nullopt : std::optional(Place{patch, uvw_in(patch, x)});
   }
 
  private:

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "lattice/core/parallel.h"
@@ -51,6 +52,33 @@ glm::dvec3 held_by_boundary(const Patch& patch, glm::dvec3 uvw) {
     }
   }
   return uvw;
+}
+
+/// Points that are searched at a time, and by one thread.
+constexpr std::size_t kChunk = std::size_t{1} << 15;
+constexpr std::size_t kGrain = 512;
+/// How many points before it is asked for a point is fetched from memory.
+constexpr std::size_t kAhead = 24;
+
+/// Calls work(numbers) for all points, a chunk at a time: neighbours one after the other, or as
+/// they are, if they need no search that would gain from it.
+template <class Work>
+void for_each_chunk(std::span<const glm::dvec3> points, bool as_they_are, const Progress& progress,
+                    const Work& work) {
+  std::vector<std::size_t> chunk;
+  for (std::size_t first = 0; first < points.size(); first += kChunk) {
+    const std::size_t n = std::min(kChunk, points.size() - first);
+    chunk.resize(n);
+    if (as_they_are) {
+      std::iota(chunk.begin(), chunk.end(), first);
+    } else {
+      const std::vector<std::uint32_t> order = spatial_order(points.subspan(first, n));
+      std::transform(order.begin(), order.end(), chunk.begin(),
+                     [&](std::uint32_t i) { return first + i; });
+    }
+    work(std::span<const std::size_t>(chunk));
+    progress.update("embed", static_cast<double>(first + n) / static_cast<double>(points.size()));
+  }
 }
 
 }  // namespace
@@ -231,17 +259,11 @@ Location PointLocator::locate(const glm::dvec3& x) const {
 
 std::vector<Location> PointLocator::locate(std::span<const glm::dvec3> points,
                                            const Progress& progress) const {
-  constexpr std::size_t kPointsPerUpdate = 1 << 16;
-  // A grid is so quick that it does not pay to bring the points in order.
-  const std::vector<std::uint32_t> order =
-      grid_.is_empty() ? spatial_order(points) : std::vector<std::uint32_t>();
   std::vector<Location> locations(points.size());
-  for (std::size_t first = 0; first < points.size(); first += kPointsPerUpdate) {
-    const std::size_t n = std::min(kPointsPerUpdate, points.size() - first);
-    parallel_ranges(n, 512, [&](std::size_t begin, std::size_t end) {
+  for_each_chunk(points, !grid_.is_empty(), progress, [&](std::span<const std::size_t> chunk) {
+    parallel_ranges(chunk.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       Query query(*this);
-      for (std::size_t k = first + begin; k < first + end; ++k) {
-        const std::size_t i = order.empty() ? k : order[k];
+      for (const std::size_t i : chunk.subspan(begin, end - begin)) {
         if (const auto inside = grid_.find(points[i])) {
           locations[i] = {PointStatus::Inside, inside->patch, inside->uvw, 0};
         } else {
@@ -249,9 +271,132 @@ std::vector<Location> PointLocator::locate(std::span<const glm::dvec3> points,
         }
       }
     });
-    progress.update("embed", static_cast<double>(first + n) / static_cast<double>(points.size()));
-  }
+  });
   return locations;
+}
+
+/// The steps of hold(): finds the patch of every point, brings the points in order, and then places
+/// them, so that little is written before it is where it belongs.
+class PointLocator::Holding {
+ public:
+  Holding(const PointLocator& locator, std::span<const glm::dvec3> points)
+      : locator_(locator), points_(points), codes_(points.size()) {
+    result_.status.resize(points.size());
+  }
+
+  [[nodiscard]] HeldPoints run(const Progress& progress) {
+    for_each_chunk(points_, !locator_.grid_.is_empty(), progress,
+                   [&](std::span<const std::size_t> chunk) { find_patches(chunk); });
+    sort_by_patch();
+    find_places();
+    return std::move(result_);
+  }
+
+ private:
+  /// A point that takes more than the grid.
+  struct Other {
+    std::size_t point;
+    std::int32_t patch;
+    glm::dvec3 uvw;
+  };
+
+  /// A code is the patch that the grid gave, kNoPatch, or below that one for each of others_.
+  static constexpr std::int32_t kNoPatch = -1;
+  [[nodiscard]] static std::size_t other_of(std::int32_t code) {
+    return static_cast<std::size_t>(kNoPatch - 1 - code);
+  }
+  [[nodiscard]] std::int32_t patch_of(std::int32_t code) const {
+    return code >= kNoPatch ? code : others_[other_of(code)].patch;
+  }
+
+  void find_patches(std::span<const std::size_t> chunk) {
+    const PatchGrid& grid = locator_.grid_;
+    const bool has_grid = !grid.is_empty();
+    std::vector<std::vector<Other>> others((chunk.size() + kGrain - 1) / kGrain);
+    parallel_ranges(chunk.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      Query query(locator_);
+      for (const std::size_t i : chunk.subspan(begin, end - begin)) {
+        codes_[i] = has_grid ? std::max(grid.find_patch(points_[i]), kNoPatch) : kNoPatch;
+        if (codes_[i] == kNoPatch) {
+          const Location found = query.locate(points_[i]);
+          result_.status[i] = found.status;
+          if (found.patch >= 0) {
+            others[begin / kGrain].push_back({i, found.patch, found.uvw});
+          }
+        }
+      }
+    });
+    for (const std::vector<Other>& of_range : others) {
+      for (const Other& other : of_range) {
+        codes_[other.point] = kNoPatch - 1 - static_cast<std::int32_t>(others_.size());
+        others_.push_back(other);
+      }
+    }
+  }
+
+  /// Numbers and patches; only numbers are moved to where they belong.
+  void sort_by_patch() {
+    std::vector<std::size_t> next(locator_.volume_->n_patches() + 1, 0);  // where a patch's next is
+    for (const std::int32_t code : codes_) {
+      if (code != kNoPatch) {
+        ++next[static_cast<std::size_t>(patch_of(code)) + 1];
+      }
+    }
+    result_.patches.reserve(points_.size());
+    for (std::size_t patch = 0; patch + 1 < next.size(); ++patch) {
+      result_.patches.insert(result_.patches.end(), next[patch + 1],
+                             static_cast<std::int32_t>(patch));
+      next[patch + 1] += next[patch];
+    }
+    result_.points.resize(next.back());
+    for (std::size_t i = 0; i < codes_.size(); ++i) {
+      if (codes_[i] != kNoPatch) {
+        result_.points[next[static_cast<std::size_t>(patch_of(codes_[i]))]++] =
+            static_cast<std::int32_t>(i);
+      }
+    }
+  }
+
+  void find_places() {
+    const PatchGrid& grid = locator_.grid_;
+    result_.uvw.resize(result_.points.size());
+    parallel_ranges(result_.points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const auto i = static_cast<std::size_t>(result_.points[k]);
+        if (grid.is_empty()) {
+          result_.uvw[k] = others_[other_of(codes_[i])].uvw;
+          continue;
+        }
+        if (k + kAhead < end) {
+          __builtin_prefetch(&points_[static_cast<std::size_t>(result_.points[k + kAhead])]);
+        }
+        result_.uvw[k] = grid.uvw_in(result_.patches[k], points_[i]);
+      }
+    });
+    for (std::size_t n = 0; n < others_.size() && !grid.is_empty(); ++n) {
+      result_.uvw[place_of(others_[n])] = others_[n].uvw;
+    }
+  }
+
+  /// Where a point is among those held.
+  [[nodiscard]] std::size_t place_of(const Other& other) const {
+    const auto patch = std::ranges::equal_range(result_.patches, other.patch);
+    const auto first = result_.points.begin() + (patch.begin() - result_.patches.begin());
+    const auto last = first + static_cast<std::ptrdiff_t>(patch.size());
+    return static_cast<std::size_t>(
+        std::lower_bound(first, last, static_cast<std::int32_t>(other.point)) -
+        result_.points.begin());
+  }
+
+  const PointLocator& locator_;
+  std::span<const glm::dvec3> points_;
+  std::vector<std::int32_t> codes_;  // #points
+  std::vector<Other> others_;
+  HeldPoints result_;
+};
+
+HeldPoints PointLocator::hold(std::span<const glm::dvec3> points, const Progress& progress) const {
+  return Holding(*this, points).run(progress);
 }
 
 }  // namespace espalier

@@ -35,6 +35,15 @@ struct Location {
   int n_steps = 0;          ///< of Newton's method in that patch; 0 in an affine one
 };
 
+/// The points that patches hold, by patch, then by point: their numbers, patches, and places as in
+/// Location.
+struct HeldPoints {
+  std::vector<PointStatus> status;    ///< #points: of all
+  std::vector<std::int32_t> points;   ///< #held
+  std::vector<std::int32_t> patches;  ///< #held, ascending
+  std::vector<glm::dvec3> uvw;        ///< #held
+};
+
 /// How patches are searched; the answers are the same, bit for bit.
 enum class PatchSearch {
   Quickest,  ///< by a grid where the patches stand in one (PatchGrid), else by a tree
@@ -61,8 +70,13 @@ class PointLocator {
   [[nodiscard]] std::vector<Location> locate(std::span<const glm::dvec3> points,
                                              const Progress& progress = {}) const;
 
+  /// The same, as a binding wants them.
+  [[nodiscard]] HeldPoints hold(std::span<const glm::dvec3> points,
+                                const Progress& progress = {}) const;
+
  private:
   class Query;
+  class Holding;
 
   const Volume* volume_;
   double exact_;   // residual of an exact solution, a length

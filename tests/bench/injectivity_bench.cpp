@@ -1,4 +1,5 @@
-// Certificates against evaluation on a grid, and the largest step of one control point.
+// Certificates, of rational patches too, against evaluation on a grid, and the largest step of one
+// control point.
 
 #include <benchmark/benchmark.h>
 
@@ -94,6 +95,25 @@ void certificate_of_a_tricubic_patch(benchmark::State& state) {
   }
 }
 BENCHMARK(certificate_of_a_tricubic_patch);
+
+void certificate_of_a_rational_tricubic_patch(benchmark::State& state) {
+  const BezierPatch patch = test::warped_cube({3, 3, 3}, 0.02, 1);
+  std::vector<glm::dvec4> points;
+  for (std::size_t i = 0; i < patch.points.size(); ++i) {
+    const double weight = i % 3 == 0 ? 1.05 : 1;
+    points.emplace_back(weight * patch.points[i], weight);
+  }
+  DeterminantNets nets;
+  BoundedPolynomial polynomial;
+  for (auto _ : state) {
+    nets.rational_determinant({patch.degree, points, glm::dvec4(1e-16)}, {}, polynomial);
+    const Positivity found = positivity(polynomial, 1);
+    if (found.verdict != Verdict::Certified) {
+      state.SkipWithError("needs subdivision");
+    }
+  }
+}
+BENCHMARK(certificate_of_a_rational_tricubic_patch);
 
 void largest_step_of_a_drag(benchmark::State& state) {
   const auto controls = test::grid_points({8, 8, 8});

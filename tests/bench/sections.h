@@ -17,4 +17,7 @@ void bench_drags();
 /// Moving the vertices of refined lattices with their control points, with the mark of each line.
 void bench_reposing();
 
+/// Hierarchies of B-splines, embedding in grids, and how many points control points move.
+void bench_tensor();
+
 }  // namespace espalier::bench

@@ -9,141 +9,18 @@
 #include "deform/injectivity/positivity.h"
 #include "lattice/volume/bernstein.h"
 #include "lattice/volume/bernstein_lines.h"
+#include "tests/support/exact_nets.h"
 #include "tests/support/spline_volume.h"
 
 namespace espalier {
 namespace {
 
-__extension__ using Integer = __int128;
-
-/// Integer Bernstein coefficients times binomials; products are exact.
-struct ExactNet {
-  std::array<int, 3> size;
-  std::vector<Integer> values;
-
-  [[nodiscard]] std::size_t at(int i, int j, int k) const {
-    return static_cast<std::size_t>(i + size[0] * (j + size[1] * k));
-  }
-};
-
-using IntegerPoint = std::array<std::int64_t, 3>;
-
-ExactNet operator*(const ExactNet& a, const ExactNet& b) {
-  ExactNet out{{a.size[0] + b.size[0] - 1, a.size[1] + b.size[1] - 1, a.size[2] + b.size[2] - 1},
-               {}};
-  out.values.assign(static_cast<std::size_t>(out.size[0] * out.size[1] * out.size[2]), 0);
-  for (int k = 0; k < a.size[2]; ++k) {
-    for (int j = 0; j < a.size[1]; ++j) {
-      for (int i = 0; i < a.size[0]; ++i) {
-        for (int c = 0; c < b.size[2]; ++c) {
-          for (int m = 0; m < b.size[1]; ++m) {
-            for (int l = 0; l < b.size[0]; ++l) {
-              out.values[out.at(i + l, j + m, k + c)] +=
-                  a.values[a.at(i, j, k)] * b.values[b.at(l, m, c)];
-            }
-          }
-        }
-      }
-    }
-  }
-  return out;
-}
-
-ExactNet sum(ExactNet a, const ExactNet& b, int sign) {
-  for (std::size_t i = 0; i < a.values.size(); ++i) {
-    a.values[i] += sign * b.values[i];
-  }
-  return a;
-}
-
-Integer exact_binomial(int n, int k) {
-  return static_cast<Integer>(binomial(n, k));
-}
-
-/// Component c of the derivative along an axis.
-ExactNet exact_derivative(int degree, const std::vector<IntegerPoint>& points, std::size_t c,
-                          std::size_t axis) {
-  ExactNet net{{degree + 1, degree + 1, degree + 1}, {}};
-  const std::array<int, 3> stride = {1, degree + 1, (degree + 1) * (degree + 1)};
-  --net.size[axis];
-  for (int k = 0; k < net.size[2]; ++k) {
-    for (int j = 0; j < net.size[1]; ++j) {
-      for (int i = 0; i < net.size[0]; ++i) {
-        const int at = i + stride[1] * j + stride[2] * k;
-        const Integer difference = points[static_cast<std::size_t>(at + stride[axis])][c] -
-                                   points[static_cast<std::size_t>(at)][c];
-        net.values.push_back(degree * difference * exact_binomial(net.size[0] - 1, i) *
-                             exact_binomial(net.size[1] - 1, j) *
-                             exact_binomial(net.size[2] - 1, k));
-      }
-    }
-  }
-  return net;
-}
-
-ExactNet exact_determinant(int degree, const std::vector<IntegerPoint>& points) {
-  std::array<std::array<ExactNet, 3>, 3> d;  // by axis, component
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      d[axis][c] = exact_derivative(degree, points, c, axis);
-    }
-  }
-  ExactNet out;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const std::size_t y = (c + 1) % 3;
-    const std::size_t z = (c + 2) % 3;
-    const ExactNet term = d[0][c] * sum(d[1][y] * d[2][z], d[1][z] * d[2][y], -1);
-    out = c == 0 ? term : sum(std::move(out), term, 1);
-  }
-  return out;
-}
-
-/// The polynomial at (a, b, c) / 4, times a positive number.
-Integer exact_value(const ExactNet& net, const std::array<int, 3>& quarter) {
-  const auto power = [](int base, int exponent) {
-    Integer result = 1;
-    for (int i = 0; i < exponent; ++i) {
-      result *= base;
-    }
-    return result;
-  };
-  Integer result = 0;
-  for (int k = 0; k < net.size[2]; ++k) {
-    for (int j = 0; j < net.size[1]; ++j) {
-      for (int i = 0; i < net.size[0]; ++i) {
-        Integer term = net.values[net.at(i, j, k)];
-        const std::array<int, 3> index = {i, j, k};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          term *= power(quarter[axis], index[axis]) *
-                  power(4 - quarter[axis], net.size[axis] - 1 - index[axis]);
-        }
-        result += term;
-      }
-    }
-  }
-  return result;
-}
-
-/// A warped cube on a 10-bit grid; every other one is singular at a corner, or one step beside it.
-std::vector<IntegerPoint> random_points(int degree, int number, std::mt19937& random) {
-  const int room = 700 / degree;
-  std::uniform_int_distribution<int> noise(0, number % 3 == 0 ? room : room / 3);
-  std::vector<IntegerPoint> points;
-  const auto n = static_cast<std::size_t>(degree + 1);
-  for (const glm::dvec3& p : test::grid_points({degree, degree, degree})) {
-    points.push_back({static_cast<int>(p.x) * room + noise(random),
-                      static_cast<int>(p.y) * room + noise(random),
-                      static_cast<int>(p.z) * room + noise(random)});
-  }
-  if (number % 2 == 0) {  // the third edge at a corner in the plane of the others
-    std::uniform_int_distribution<int> step(-1, 1);
-    for (std::size_t c = 0; c < 3; ++c) {
-      points[n * n][c] = points[1][c] + points[n][c] - points[0][c];
-    }
-    points[n * n][2] += number % 4 == 0 ? 0 : step(random);
-  }
-  return points;
-}
+using test::exact_determinant;
+using test::exact_value;
+using test::ExactNet;
+using test::Integer;
+using test::IntegerPoint;
+using test::random_points;
 
 /// The same shape with large odd factors, exact in double, so that products are rounded.
 BezierPatch rounded_patch(int degree, const std::vector<IntegerPoint>& points,
@@ -261,36 +138,6 @@ TEST(DeterminantNets, of_moving_patches_are_cubic_in_time) {
     }
     const glm::dmat3 moved = start.derivative(uvw) + t * motion.derivative(uvw);
     EXPECT_NEAR(value, glm::determinant(moved), 1e-12 * (1 + std::abs(t * t * t)));
-  }
-}
-
-TEST(DeterminantNets, of_rational_patches_are_the_fourth_power_of_the_weight_times_the_jacobian) {
-  const BezierPatch shape = test::warped_cube({2, 3, 1}, 0.1, 7);
-  std::vector<glm::dvec4> points;
-  std::mt19937 random(2);
-  std::uniform_real_distribution<double> weight(0.5, 2);
-  BezierPatch weighted = shape;
-  BezierPatch weights = shape;
-  for (std::size_t i = 0; i < shape.points.size(); ++i) {
-    const double w = weight(random);
-    weighted.points[i] *= w;
-    weights.points[i] = glm::dvec3(w, 0, 0);
-    points.emplace_back(weighted.points[i], w);
-  }
-  DeterminantNets nets;
-  BoundedPolynomial polynomial;
-  nets.rational_determinant(shape.degree, points, 0, polynomial);
-  EXPECT_EQ(polynomial.shape.size, (std::array<int, 3>{8, 12, 4}));
-  const BernsteinPolynomial determinant{{7, 11, 3}, polynomial.coefficients};
-  for (const glm::dvec3 uvw : {glm::dvec3(0.2, 0.3, 0.9), glm::dvec3(0, 1, 0.5)}) {
-    const double w = weights.value(uvw).x;
-    const glm::dvec3 slopes = glm::transpose(weights.derivative(uvw))[0];
-    const glm::dvec3 place = weighted.value(uvw) / w;
-    glm::dmat3 jacobian = weighted.derivative(uvw);
-    for (int axis = 0; axis < 3; ++axis) {
-      jacobian[axis] = (jacobian[axis] - slopes[axis] * place) / w;
-    }
-    EXPECT_NEAR(determinant.value(uvw), std::pow(w, 4) * glm::determinant(jacobian), 1e-12);
   }
 }
 

@@ -114,6 +114,36 @@ TEST(PatchGrid, gives_the_same_places_as_the_tree_bit_for_bit) {
   }
 }
 
+TEST(PointLocator, holds_points_by_patch_as_it_locates_them) {
+  for (const auto& [name, volume] : grids()) {
+    const std::vector<glm::dvec3> once = probes(volume);
+    std::vector<glm::dvec3> points = once;
+    while (points.size() < 35000) {  // more than are looked at together
+      points.insert(points.end(), once.begin(), once.begin() + 5000);
+    }
+    for (const PatchSearch search : {PatchSearch::Quickest, PatchSearch::Tree}) {
+      const PointLocator locator(volume, search);
+      const std::vector<Location> located = locator.locate(points);
+      const HeldPoints held = locator.hold(points);
+      ASSERT_EQ(held.status.size(), points.size());
+      std::size_t n_held = 0;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        ASSERT_EQ(held.status[i], located[i].status) << name << i;
+        n_held += located[i].patch >= 0 ? 1 : 0;
+      }
+      ASSERT_EQ(held.points.size(), n_held);
+      for (std::size_t k = 0; k < n_held; ++k) {
+        const auto i = static_cast<std::size_t>(held.points[k]);
+        ASSERT_EQ(held.patches[k], located[i].patch) << name << i;
+        ASSERT_EQ(held.uvw[k], located[i].uvw) << name << i;
+        ASSERT_TRUE(k == 0 || held.patches[k - 1] < held.patches[k] ||
+                    (held.patches[k - 1] == held.patches[k] && held.points[k - 1] < held.points[k]))
+            << name << k;
+      }
+    }
+  }
+}
+
 TEST(PatchGrid, finds_what_is_inside_patches_and_nothing_at_their_faces) {
   std::mt19937 random(23);
   std::uniform_real_distribution<double> unit(1e-4, 1 - 1e-4);

@@ -7,10 +7,12 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <random>
+#include <string>
 
 #include "lattice/build/primitives.h"
 #include "lattice/core/error.h"
 #include "lattice/subdivision/freeze.h"
+#include "lattice/tensor/thb_lattice.h"
 #include "tests/support/families.h"
 #include "tests/support/spline_volume.h"
 
@@ -385,6 +387,43 @@ TEST(TensorLattice, refuses_what_does_not_fit_together) {
                ParameterError);
   EXPECT_THROW((void)make_tensor_lattice(TensorKind::BSpline, same_axes(60000, 2, Ends::Open), {}),
                ParameterError);
+}
+
+TEST(TensorLattice, refuses_lattices_without_thickness) {
+  const TensorAxis axis = TensorAxis::make(3, 2, Ends::Open);
+  const auto complaint = [](const auto& work) -> std::string {
+    try {
+      work();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  OrientedBox flat;
+  flat.half_sizes.y = 0;
+  EXPECT_EQ(complaint([&] {
+              (void)make_tensor_lattice(TensorKind::BSpline, {axis, axis, axis}, flat);
+            }),
+            "the box has no thickness along v: its half size is 0");
+  EXPECT_EQ(complaint([&] {
+              (void)make_thb_lattice({3, 3, 3}, {2, 2, 2}, flat);
+            }),
+            "the box has no thickness along v: its half size is 0");
+  TensorLattice lattice = make_tensor_lattice(TensorKind::BSpline, {axis, axis, axis}, {});
+  ThbLattice levels = make_thb_lattice({3, 3, 3}, {2, 2, 2}, {});
+  for (const glm::dvec3& normal : {glm::dvec3(0, 0, 1), glm::dvec3(0.36, 0.48, 0.8)}) {
+    lattice.rest = make_tensor_lattice(TensorKind::BSpline, {axis, axis, axis}, {}).rest;
+    for (glm::dvec3& p : lattice.rest) {
+      p -= glm::dot(p, normal) * normal;
+    }
+    levels.rest = lattice.rest;
+    for (const std::string& found :
+         {complaint([&] { (void)freeze(lattice); }), complaint([&] { (void)freeze(levels); })}) {
+      EXPECT_EQ(found.find("the control points at rest all lie in a plane"), 0u) << found;
+    }
+    lattice.rest[5] += 1e-6 * normal;
+    EXPECT_EQ(complaint([&] { (void)freeze(lattice); }), "");
+  }
 }
 
 TEST(OrientedBox, fits_points_along_the_axes_or_along_their_own) {

@@ -157,7 +157,7 @@ TEST(ThbLattice, refining_a_deformed_lattice_changes_nothing) {
 }
 
 TEST(ThbLattice, functions_sum_to_one_are_not_negative_and_local) {
-  for (unsigned seed = 0; seed < 3; ++seed) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
     const int degree = 1 + static_cast<int>(seed);
     const ThbLattice lattice =
         randomly_refined(make_thb_lattice({6, 6, 6}, {degree, degree, degree}, {}), 3, seed + 10);
@@ -312,6 +312,32 @@ TEST(ThbLattice, has_eight_levels_and_more_and_may_skip_some) {
   const ThbLattice skipped =
       with_cells(inner, 1, cells_of_box(*inner.hierarchy, 1, glm::dvec3(0.25), glm::dvec3(0.5)));
   EXPECT_EQ(skipped.hierarchy->n_controls_by_level(), (std::vector<std::size_t>{343, 0}));
+}
+
+/// [THB18] figure 8: the cow in 3 × 3 × 3 control points, ears shaped by two of level two.
+TEST(ThbLattice, over_a_tri_quadratic_bezier_volume_is_exact) {
+  const ThbLattice cow = posed_box({3, 3, 3}, {2, 2, 2}, 11);
+  const Map volume(cow);
+  for (const glm::dvec3& uvw : places(12)) {
+    glm::dvec3 sum(0);
+    for (std::size_t i = 0; i < 27; ++i) {
+      const std::array<std::size_t, 3> index = {i % 3, i / 3 % 3, i / 9};
+      double weight = 1;
+      for (int a = 0; a < 3; ++a) {
+        const double u = uvw[a];
+        weight *= std::array{(1 - u) * (1 - u), 2 * u * (1 - u),
+                             u * u}[index[static_cast<std::size_t>(a)]];
+      }
+      sum += weight * cow.pose[i];
+    }
+    EXPECT_LT(glm::distance(volume.posed(uvw), sum), 1e-15);
+  }
+  // Level two near the top of the head: a quarter of the length, half the width and height.
+  ThbLattice head =
+      with_cells(cow, 1, cells_of_box(*cow.hierarchy, 1, glm::dvec3(0), glm::dvec3(1)));
+  head = with_cells(head, 2, cells_of_box(*head.hierarchy, 2, {0, 0.5, 0}, {0.5, 1, 1}));
+  EXPECT_EQ(head.hierarchy->n_controls_by_level(),
+            (std::vector<std::size_t>{0, 64 - 4, 2 * 2 * 6}));
 }
 
 TEST(ThbLattice, boxes_snap_to_lines_and_refuse_what_is_none) {

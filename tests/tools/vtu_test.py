@@ -15,7 +15,14 @@ import tempfile
 import unittest
 
 from vtkmodules.vtkCommonCore import reference, vtkIdList
-from vtkmodules.vtkCommonDataModel import VTK_BEZIER_HEXAHEDRON, VTK_HEXAHEDRON, VTK_POLYHEDRON
+from vtkmodules.vtkCommonDataModel import (
+    VTK_BEZIER_HEXAHEDRON,
+    VTK_HEXAHEDRON,
+    VTK_LINE,
+    VTK_POLYHEDRON,
+    VTK_QUAD,
+    VTK_VERTEX,
+)
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 ESPALIER, VTU_SAMPLES = (os.path.abspath(sys.argv.pop(1)) for _ in range(2))
@@ -177,6 +184,76 @@ class VtuTest(unittest.TestCase):
                     {frozenset(face) for face in faces},
                     {frozenset(source["faces"][f]) for f in cell},
                 )
+
+    def corners(self, grid, cell):
+        ids = grid.GetCell(cell).GetPointIds()
+        return [ids.GetId(k) for k in range(ids.GetNumberOfIds())]
+
+    def test_control_nets_of_grids_are_cells_between_neighbours(self):
+        for counts, cell_type, n_cells in [
+            ((3, 4, 5), VTK_HEXAHEDRON, 24),
+            ((4, 1, 5), VTK_QUAD, 12),
+            ((1, 4, 1), VTK_LINE, 3),
+        ]:
+            espalier("new", "bezier", "--counts", *map(str, counts), "-o", "bezier.json")
+            with open("bezier.json", encoding="ascii") as file:
+                lattice = json.load(file)
+            lattice["pose"] = [[x + z * z, y, z - x * y] for x, y, z in lattice["rest"]]
+            with open("bezier.json", "w", encoding="ascii") as file:
+                json.dump(lattice, file)
+            for options, key in [([], "pose"), (["--rest"], "rest")]:
+                espalier("convert", "bezier.json", *options, "-o", "net.vtu")
+                grid = read("net.vtu")
+                points = [list(grid.GetPoint(i)) for i in range(grid.GetNumberOfPoints())]
+                self.assertEqual(points, lattice[key])
+                self.assertEqual(grid.GetNumberOfCells(), n_cells)
+                seen = set()
+                for i in range(n_cells):
+                    self.assertEqual(grid.GetCellType(i), cell_type)
+                    ids = self.corners(grid, i)
+                    nu, nv, _ = counts
+                    places = [(p % nu, p // nu % nv, p // nu // nv) for p in ids]
+                    low = tuple(map(min, zip(*places)))
+                    self.assertTrue(all(0 <= a - b <= 1 for p in places for a, b in zip(p, low)))
+                    self.assertEqual(len(set(ids)), len(ids))
+                    for a, b in zip(places[:4], places[1:4]):  # round a face: one step at a time
+                        self.assertEqual(sum(abs(s - t) for s, t in zip(a, b)), 1)
+                    seen.add(low)
+                self.assertEqual(len(seen), n_cells)
+
+    def test_control_nets_of_hierarchies_tell_levels(self):
+        degree = ["--degree", "2", "2", "2"]
+        espalier("new", "thb", "--counts", "5", "5", "5", *degree, "-o", "thb.json")
+        box = ["0", "0", "0", "0.3333333333333333", "0.6666666666666666", "1"]
+        espalier("refine", "thb.json", "--box", *box, "--level", "1", "-o", "thb.json")
+        espalier("convert", "thb.json", "-o", "net.vtu")
+        grid = read("net.vtu")
+        with open("thb.json", encoding="ascii") as file:
+            functions = [tuple(p[:4]) for p in json.load(file)["points"]]
+        levels = grid.GetCellData().GetArray("Level")
+        seen = {0: set(), 1: set()}
+        for i in range(grid.GetNumberOfCells()):
+            level = int(levels.GetTuple1(i))
+            corners = [functions[k] for k in self.corners(grid, i)]
+            self.assertEqual({f[0] for f in corners}, {level})
+            self.assertIn(grid.GetCellType(i), (VTK_HEXAHEDRON, VTK_QUAD, VTK_LINE, VTK_VERTEX))
+            if grid.GetCellType(i) == VTK_HEXAHEDRON:
+                seen[level].add(min(corners))
+        active = set(functions)
+        for level, cells in seen.items():
+            full = {
+                f
+                for f in functions
+                if f[0] == level
+                and all(
+                    (level, f[1] + a, f[2] + b, f[3] + c) in active
+                    for a in (0, 1)
+                    for b in (0, 1)
+                    for c in (0, 1)
+                )
+            }
+            self.assertGreater(len(full), 0)
+            self.assertEqual(cells, full)
 
 
 if __name__ == "__main__":
