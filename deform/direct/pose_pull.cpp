@@ -1,0 +1,238 @@
+#include "deform/direct/pose_pull.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "deform/direct/pull.h"
+#include "deform/direct/smooth_motion.h"
+#include "deform/embed/embed.h"
+#include "deform/injectivity/injectivity.h"
+#include "lattice/core/error.h"
+#include "lattice/tensor/thb_refine.h"
+
+namespace espalier {
+namespace {
+
+/// Within which places are the same, and goals reached if that can be: parts of the diagonal.
+constexpr double kSamePlace = 1e-9;
+constexpr double kReached = 1e-12;
+/// A certified step is one without a fold below it: stay below.
+constexpr double kShortOfFold = 1 - 1e-6;
+
+/// A lattice that may be refined, with what pulling it takes.
+struct Stage {
+  Lattice lattice;
+  std::shared_ptr<const Volume> volume;
+  std::vector<double> mobilities;
+  std::vector<glm::dvec3> motion = {};
+  std::vector<glm::dvec3> wanted = {};     // #points of the task; zero for those that are left out
+  std::vector<glm::dvec3> residuals = {};  // the same
+  std::vector<char> is_held = {};          // the same
+};
+
+double largest(std::span<const glm::dvec3> vectors) {
+  double most = 0;
+  for (const glm::dvec3& v : vectors) {
+    most = std::max(most, glm::length(v));
+  }
+  return most;
+}
+
+/// How pulled points move with the pose as it is.
+std::vector<glm::dvec3> current_moves(const Stage& stage, const StencilTable& rows) {
+  const auto rest = stage.volume->rest_controls();
+  std::vector<glm::dvec3> moves(stage.lattice.posed_points().begin(),
+                                stage.lattice.posed_points().end());
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    moves[i] -= rest[i];
+  }
+  return rows.apply(moves);
+}
+
+glm::dvec3 wanted_move(const PullTask& task, const PulledPoint& point, const glm::dvec3& current) {
+  switch (point.aim) {
+    case Aim::Place:
+      return point.goal - current;
+    case Aim::Shift:
+      return point.goal;
+    default:
+      return glm::dot(task.plane_point - current, task.plane_normal) * task.plane_normal;
+  }
+}
+
+/// Some rows of a table.
+StencilTable selected(const StencilTable& rows, std::span<const std::size_t> which) {
+  return StencilTable::build(which.size(), rows.n_controls(), [&](std::size_t i, StencilRow& row) {
+    const StencilTable::Row source = rows[which[i]];
+    for (std::size_t k = 0; k < source.indices.size(); ++k) {
+      row.add(source.indices[k], source.weights[k]);
+    }
+  });
+}
+
+/// Solves for the rows of the points that are held.
+PullMotion solved(const PullTask& task, const Stage& stage, const StencilTable& rows,
+                  std::span<const std::size_t> held) {
+  std::vector<std::size_t> free;
+  std::vector<std::size_t> flat;
+  std::vector<glm::dvec3> wanted;
+  std::vector<double> distances;
+  std::size_t n_of_groups = 0;
+  for (const std::size_t i : held) {
+    if (task.points[i].aim == Aim::Plane) {
+      flat.push_back(i);
+      distances.push_back(glm::dot(stage.wanted[i], task.plane_normal));
+    } else {
+      n_of_groups += task.points[i].aim == Aim::Shift ? 1 : 0;
+      free.push_back(i);
+      wanted.push_back(stage.wanted[i]);
+    }
+  }
+  const StencilTable all = selected(rows, held);
+  const auto energy = task.is_smooth
+                          ? smooth_motion(all, neighbour_differences(stage.lattice, *stage.volume),
+                                          stage.mobilities)
+                          : smallest_motion(all, stage.mobilities);
+  if (flat.empty()) {
+    return Pull(all, energy, n_of_groups).motion(wanted);
+  }
+  return pull_with_plane(selected(rows, free), n_of_groups, wanted,
+                         {selected(rows, flat), task.plane_normal}, distances, energy);
+}
+
+void solve(const PullTask& task, std::span<const glm::dvec3> model,
+           std::span<const glm::dvec3> places, const Progress& progress, Stage& stage) {
+  const StencilTable rows = rows_of(*stage.volume, task.points, model, task.symmetry, progress);
+  const std::vector<glm::dvec3> moves = current_moves(stage, rows);
+  const std::size_t n = task.points.size();
+  stage.wanted.assign(n, glm::dvec3(0));
+  stage.residuals.assign(n, glm::dvec3(0));
+  stage.is_held.assign(n, 0);
+  std::vector<std::size_t> held;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!rows[i].indices.empty()) {
+      stage.is_held[i] = 1;
+      stage.wanted[i] = wanted_move(task, task.points[i], places[i] + moves[i]);
+      held.push_back(i);
+    }
+  }
+  // Picks first, then groups, then those that go to the plane.
+  std::stable_sort(held.begin(), held.end(), [&](std::size_t a, std::size_t b) {
+    return task.points[a].aim < task.points[b].aim;
+  });
+  std::vector<PulledPoint> points;
+  std::vector<glm::dvec3> held_places;
+  std::vector<glm::dvec3> held_wanted;
+  for (const std::size_t i : held) {
+    points.push_back(task.points[i]);
+    held_places.push_back(places[i]);
+    held_wanted.push_back(stage.wanted[i]);
+  }
+  require_no_contradiction(points, held_places, held_wanted, task.plane_normal,
+                           kSamePlace * stage.volume->diagonal());
+  PullMotion pulled = solved(task, stage, rows, held);
+  stage.motion = std::move(pulled.motion);
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    stage.residuals[held[i]] = pulled.residuals[i];
+  }
+}
+
+/// How far from its goal a point may be that has reached it: round-off is of the size of places.
+double reach_of(const Volume& volume) {
+  double size = volume.diagonal();
+  for (const glm::dvec3& p : volume.rest_controls()) {
+    size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  return kReached * size;
+}
+
+/// One level more where points miss their goals.
+Stage refined(const Stage& stage, const PullTask& task, std::span<const glm::dvec3> model) {
+  const auto& before = *stage.lattice.as<ThbLattice>();
+  const double reach = reach_of(*stage.volume);
+  std::vector<glm::dvec3> missed;
+  for (std::size_t i = 0; i < task.points.size(); ++i) {
+    if (glm::length(stage.residuals[i]) > reach) {
+      for (const auto& [corner, weight] : task.points[i].point.corners) {
+        missed.push_back(task.points[i].is_image ? task.symmetry->image_of_place(model[corner])
+                                                 : model[corner]);
+      }
+    }
+  }
+  const Binding binding = embed(*stage.volume, missed);
+  ThbLattice after = refined_round(
+      before,
+      places_in_whole(*before.hierarchy, before.hierarchy->leaves(), binding.patches, binding.uvw));
+  std::vector<double> mobilities;
+  if (!stage.mobilities.empty()) {
+    mobilities = carried_over(before, after, stage.mobilities);
+  }
+  Lattice lattice(std::move(after));
+  auto volume = std::make_shared<const Volume>(lattice.freeze());
+  return {std::move(lattice), std::move(volume), std::move(mobilities)};
+}
+
+/// The lattice as it is, if that does, or if refining does not help.
+Stage solved_stage(Stage first, const PullTask& task, std::span<const glm::dvec3> model,
+                   std::span<const glm::dvec3> places, const Progress& progress) {
+  solve(task, model, places, progress, first);
+  Stage last = first;
+  for (int round = 0; round < task.most_refinements; ++round) {
+    if (largest(last.residuals) <= reach_of(*last.volume) ||
+        last.lattice.as<ThbLattice>()->hierarchy->n_levels() == kMostThbLevels) {
+      break;
+    }
+    last = refined(last, task, model);
+    solve(task, model, places, progress, last);
+  }
+  const bool helps = largest(last.residuals) < (1 - kSamePlace) * largest(first.residuals);
+  return helps ? last : first;
+}
+
+}  // namespace
+
+PulledPose pulled_pose(const Lattice& lattice, std::shared_ptr<const Volume> volume,
+                       std::span<const glm::dvec3> model, PullTask task, const Progress& progress) {
+  if (task.most_refinements > 0 && lattice.as<ThbLattice>() == nullptr) {
+    throw ParameterError("'refine' needs a thb lattice, this one is of type " +
+                         std::string(lattice.type()));
+  }
+  if (task.symmetry) {
+    task.points =
+        with_images(std::move(task.points), model, *task.symmetry, kSamePlace * volume->diagonal());
+  }
+  std::vector<glm::dvec3> places;
+  for (const PulledPoint& point : task.points) {
+    places.push_back(rest_place(point, model, task.symmetry));
+  }
+  const Stage stage =
+      solved_stage({lattice, std::move(volume), task.mobilities}, task, model, places, progress);
+  std::vector<glm::dvec3> pose(stage.lattice.posed_points().begin(),
+                               stage.lattice.posed_points().end());
+  double step = 1;
+  if (task.stops_at_fold) {
+    const SafeStep safe =
+        InjectivityCheck(stage.volume).largest_step(pose, stage.motion, {.most_step = 1});
+    step = safe.step < 1 ? safe.step * kShortOfFold : 1;
+  }
+  for (std::size_t i = 0; i < pose.size(); ++i) {
+    pose[i] += step * stage.motion[i];
+  }
+  PulledPose result{stage.lattice.with_pose(std::move(pose)),
+                    std::move(task.points),
+                    std::move(places),
+                    stage.residuals,
+                    stage.is_held,
+                    step,
+                    largest(stage.residuals) / stage.volume->diagonal()};
+  for (std::size_t i = 0; i < result.residuals.size(); ++i) {
+    const glm::dvec3 done = stage.wanted[i] - result.residuals[i];
+    result.residuals[i] = stage.wanted[i] - step * done;
+  }
+  return result;
+}
+
+}  // namespace espalier
