@@ -16,9 +16,11 @@
 namespace espalier {
 namespace {
 
-/// Within which places are the same, and goals reached if that can be: parts of the diagonal.
+/// Within which places are the same, and goals reached by refining: parts of the diagonal. Groups,
+/// which may be bent in any way, are not followed to the last digit.
 constexpr double kSamePlace = 1e-9;
 constexpr double kReached = 1e-12;
+constexpr double kReachedByGroups = 1e-6;
 /// A certified step is one without a fold below it: stay below.
 constexpr double kShortOfFold = 1 - 1e-6;
 
@@ -140,29 +142,34 @@ void solve(const PullTask& task, std::span<const glm::dvec3> model,
   }
 }
 
-/// How far from its goal a point may be that has reached it: round-off is of the size of places.
-double reach_of(const Volume& volume) {
-  double size = volume.diagonal();
-  for (const glm::dvec3& p : volume.rest_controls()) {
+/// The points that miss their goals. Round-off is of the size of places.
+std::vector<std::size_t> missing(const PullTask& task, const Stage& stage) {
+  double size = stage.volume->diagonal();
+  for (const glm::dvec3& p : stage.volume->rest_controls()) {
     size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
-  return kReached * size;
+  std::vector<std::size_t> missed;
+  for (std::size_t i = 0; i < task.points.size(); ++i) {
+    const double reached = task.points[i].aim == Aim::Place ? kReached : kReachedByGroups;
+    if (glm::length(stage.residuals[i]) > reached * size) {
+      missed.push_back(i);
+    }
+  }
+  return missed;
 }
 
 /// One level more where points miss their goals.
-Stage refined(const Stage& stage, const PullTask& task, std::span<const glm::dvec3> model) {
+Stage refined(const Stage& stage, const PullTask& task, std::span<const glm::dvec3> model,
+              std::span<const std::size_t> missed) {
   const auto& before = *stage.lattice.as<ThbLattice>();
-  const double reach = reach_of(*stage.volume);
-  std::vector<glm::dvec3> missed;
-  for (std::size_t i = 0; i < task.points.size(); ++i) {
-    if (glm::length(stage.residuals[i]) > reach) {
-      for (const auto& [corner, weight] : task.points[i].point.corners) {
-        missed.push_back(task.points[i].is_image ? task.symmetry->image_of_place(model[corner])
-                                                 : model[corner]);
-      }
+  std::vector<glm::dvec3> corners;
+  for (const std::size_t i : missed) {
+    for (const auto& [corner, weight] : task.points[i].point.corners) {
+      corners.push_back(task.points[i].is_image ? task.symmetry->image_of_place(model[corner])
+                                                : model[corner]);
     }
   }
-  const Binding binding = embed(*stage.volume, missed);
+  const Binding binding = embed(*stage.volume, corners);
   ThbLattice after = refined_round(
       before,
       places_in_whole(*before.hierarchy, before.hierarchy->leaves(), binding.patches, binding.uvw));
@@ -181,11 +188,11 @@ Stage solved_stage(Stage first, const PullTask& task, std::span<const glm::dvec3
   solve(task, model, places, progress, first);
   Stage last = first;
   for (int round = 0; round < task.most_refinements; ++round) {
-    if (largest(last.residuals) <= reach_of(*last.volume) ||
-        last.lattice.as<ThbLattice>()->hierarchy->n_levels() == kMostThbLevels) {
+    const std::vector<std::size_t> missed = missing(task, last);
+    if (missed.empty() || last.lattice.as<ThbLattice>()->hierarchy->n_levels() == kMostThbLevels) {
       break;
     }
-    last = refined(last, task, model);
+    last = refined(last, task, model, missed);
     solve(task, model, places, progress, last);
   }
   const bool helps = largest(last.residuals) < (1 - kSamePlace) * largest(first.residuals);

@@ -120,7 +120,8 @@ PullMotion Pull::motion(std::span<const glm::dvec3> wanted) const {
   if (!groups_) {
     return solved(wanted, nullptr);
   }
-  const double most = kMostGain * largest(wanted);
+  const double most =
+      kMostGain * std::max(largest(wanted), largest(solved(wanted, nullptr).motion));
   PullMotion result = solved(wanted, &*groups_);
   for (double tolerance = kLeastTolerance;
        largest(result.motion) > most && tolerance <= kMostTolerance; tolerance *= 10) {

@@ -29,7 +29,7 @@ struct PullMotion {
 /// Points of groups come after the picks: they do what they can without disturbing these. Many
 /// points side by side ask for bends that a lattice can only make by throwing its control points
 /// far away; so groups are not met exactly where control points would move more than kMostGain
-/// times as far as points are to.
+/// times as far as points are to, or as picks alone move them.
 class Pull {
  public:
   /// rows: #picks × #controls, the picked rows of control_weights(), or combinations of them.
@@ -49,7 +49,7 @@ class Pull {
   /// How many of the picks are independent of the others.
   [[nodiscard]] std::size_t rank() const { return picks_.rank(); }
 
-  static constexpr double kMostGain = 8;
+  static constexpr double kMostGain = 3;
 
  private:
   [[nodiscard]] PullMotion solved(std::span<const glm::dvec3> wanted,

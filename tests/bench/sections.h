@@ -14,5 +14,7 @@ void bench_freezing();
 void bench_evaluation();
 /// Moving the vertices of refined lattices with their control points, with the mark of each line.
 void bench_reposing();
+/// Taking picked points where they are wanted, with the mark of each line.
+void bench_pulling();
 
 }  // namespace espalier::bench

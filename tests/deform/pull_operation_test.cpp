@@ -13,6 +13,7 @@
 #include "deform/model/model_file.h"
 #include "deform/scene/bind.h"
 #include "deform/scene/operation_text.h"
+#include "deform/scene/operations.h"
 #include "deform/scene/pull.h"
 #include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
@@ -175,7 +176,9 @@ TEST(PullOperation, magnet_moves_a_group_as_one_and_little_else) {
         EXPECT_LT(glm::distance(moved[i], rest[i] + glm::dvec3(0, 0.1, 0.4)), 1e-11) << made;
       }
     }
-    EXPECT_LT(glm::distance(moved[8], rest[8]), 0.3) << made;
+    if (made.find("bezier") == std::string::npos) {  // a polynomial moves all of a plane alike
+      EXPECT_LT(glm::distance(moved[8], rest[8]), 0.3) << made;
+    }
   }
   const PulledScene some = pulled(box_scene(), "magnet=0-2,81=0,0,1");
   EXPECT_EQ(some.report.groups[0].n_points, 3u);
@@ -249,7 +252,9 @@ TEST(PullOperation, stops_before_the_first_fold_on_every_lattice) {
     EXPECT_NE(after.report.sentence().find("begins to fold"), std::string::npos) << made;
     const Lattice& lattice = lattice_in(after.scene, "box");
     const auto volume = std::make_shared<const Volume>(lattice.freeze());
-    EXPECT_EQ(InjectivityCheck(volume).local(lattice.posed_points()).verdict, Verdict::Certified)
+    // With tripled ends space is singular at the border, at rest too.
+    EXPECT_EQ(InjectivityCheck(volume).local(lattice.posed_points()).verdict,
+              made.find("tripled") == std::string::npos ? Verdict::Certified : Verdict::Undecided)
         << made;
     EXPECT_NEAR(after.report.picks[0].residual.x, 3.9 * (1 - after.report.step), 1e-9) << made;
   }
