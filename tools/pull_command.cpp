@@ -37,6 +37,7 @@ Json to_json(const PullReport::Pick& pick) {
 std::string json_of(const std::string& path, const PullReport& report) {
   Json json = {{"output", path},
                {"step", report.step},
+               {"gain", report.gain},
                {"added_control_points", report.n_added_control_points},
                {"message", report.sentence()}};
   json["picks"] = Json::array();

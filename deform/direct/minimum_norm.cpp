@@ -97,6 +97,7 @@ struct MinimumNorm::Factors {
   bool is_wide = false;                        // more unknowns than equations: of Aᵀ, else of A
   Index n_unknowns = 0;
   std::optional<Complete> core;
+  std::optional<Eigen::HouseholderQR<MatrixXd>> damped;  // instead of the core
 
   void factorise(const MatrixXd& transposed) {
     n_unknowns = transposed.rows();
@@ -113,12 +114,21 @@ struct MinimumNorm::Factors {
     if (!core) {
       return Vectors::Zero(n_unknowns, 3);
     }
+    const auto square = [&](const Vectors& right) -> Vectors {
+      if (damped) {
+        Vectors padded = Vectors::Zero(2 * right.rows(), 3);
+        padded.topRows(right.rows()) = right;
+        return damped->solve(padded);
+      }
+      if (is_wide) {
+        return core->transpose().solve(right);
+      }
+      return core->solve(right);
+    };
     if (is_wide) {
-      const Vectors inner = core->transpose().solve(b);
-      return reduction->Q * inner;
+      return reduction->Q * square(b);
     }
-    const Vectors outer = reduction->Q.transpose() * b;
-    return core->solve(outer);
+    return square(reduction->Q.transpose() * b);
   }
 };
 
@@ -145,10 +155,15 @@ MinimumNorm::MinimumNorm(const DenseMatrix& transposed, const DenseMatrix& free)
 
 MinimumNorm::MinimumNorm(std::shared_ptr<const Factors> factors) : factors_(std::move(factors)) {}
 
-MinimumNorm MinimumNorm::with_tolerance(double tolerance) const {
+MinimumNorm MinimumNorm::with_damping(double damping) const {
   auto factors = std::make_shared<Factors>(*factors_);
   if (factors->core) {
-    factors->core = complete(factors->reduction->R, tolerance);
+    const MatrixXd& R = factors->reduction->R;
+    MatrixXd stacked(2 * R.rows(), R.cols());
+    stacked.topRows(R.rows()) = factors->is_wide ? MatrixXd(R.transpose()) : R;
+    stacked.bottomRows(R.rows()) =
+        damping * factors->core->maxPivot() * MatrixXd::Identity(R.rows(), R.cols());
+    factors->damped.emplace(stacked);
   }
   return MinimumNorm(std::shared_ptr<const Factors>(std::move(factors)));
 }

@@ -39,10 +39,9 @@ class MinimumNorm {
   /// require_solvable(). O(#y · #equations · min of both).
   explicit MinimumNorm(const DenseMatrix& transposed, const DenseMatrix& free = {});
 
-  /// The same equations where what the others leave of one counts as zero if that is less than a
-  /// part of the largest: a small y that nearly solves them instead of a large one that does.
-  /// Usually the tolerance is that of round-off. O(square core).
-  [[nodiscard]] MinimumNorm with_tolerance(double tolerance) const;
+  /// The same equations solved for the least |b − A y − F a|² + damping² |A|² |y|²: a small y that
+  /// nearly solves them instead of a large one that does. damping: above 0. O(square core).
+  [[nodiscard]] MinimumNorm with_damping(double damping) const;
 
   /// b: #equations; x, y and z are three right sides. The same bits for any number of threads.
   /// O(#y · #equations).

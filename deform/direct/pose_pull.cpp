@@ -21,6 +21,8 @@ namespace {
 constexpr double kSamePlace = 1e-9;
 constexpr double kReached = 1e-12;
 constexpr double kReachedByGroups = 1e-6;
+/// Beyond this part of the diagonal a pick misses.
+constexpr double kMiss = 1e-9;
 /// A certified step is one without a fold below it: stay below.
 constexpr double kShortOfFold = 1 - 1e-6;
 
@@ -142,15 +144,17 @@ void solve(const PullTask& task, std::span<const glm::dvec3> model,
   }
 }
 
-/// The points that miss their goals. Round-off is of the size of places.
-std::vector<std::size_t> missing(const PullTask& task, const Stage& stage) {
+/// The points that are farther from their goals than parts of the lattice's size: round-off is of
+/// the size of places.
+std::vector<std::size_t> missing(std::span<const PulledPoint> points, const Stage& stage,
+                                 double of_picks) {
   double size = stage.volume->diagonal();
   for (const glm::dvec3& p : stage.volume->rest_controls()) {
     size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
   std::vector<std::size_t> missed;
-  for (std::size_t i = 0; i < task.points.size(); ++i) {
-    const double reached = task.points[i].aim == Aim::Place ? kReached : kReachedByGroups;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double reached = points[i].aim == Aim::Place ? of_picks : kReachedByGroups;
     if (glm::length(stage.residuals[i]) > reached * size) {
       missed.push_back(i);
     }
@@ -158,12 +162,12 @@ std::vector<std::size_t> missing(const PullTask& task, const Stage& stage) {
   return missed;
 }
 
-/// One level more where points miss their goals.
+/// One level more under points.
 Stage refined(const Stage& stage, const PullTask& task, std::span<const glm::dvec3> model,
-              std::span<const std::size_t> missed) {
+              std::span<const std::size_t> under) {
   const auto& before = *stage.lattice.as<ThbLattice>();
   std::vector<glm::dvec3> corners;
-  for (const std::size_t i : missed) {
+  for (const std::size_t i : under) {
     for (const auto& [corner, weight] : task.points[i].point.corners) {
       corners.push_back(task.points[i].is_image ? task.symmetry->image_of_place(model[corner])
                                                 : model[corner]);
@@ -182,20 +186,42 @@ Stage refined(const Stage& stage, const PullTask& task, std::span<const glm::dve
   return {std::move(lattice), std::move(volume), std::move(mobilities)};
 }
 
+/// How much farther control points move than any point is to.
+double gain_of(const Stage& stage) {
+  const double wanted = largest(stage.wanted);
+  return wanted > 0 ? largest(stage.motion) / wanted : 0;
+}
+
+/// The points to refine under: those that miss their goals, or all if they are taken there by
+/// throwing control points far away.
+std::vector<std::size_t> strained(const PullTask& task, const Stage& stage) {
+  std::vector<std::size_t> points = missing(task.points, stage, kReached);
+  if (points.empty() && gain_of(stage) > Pull::kMostGain) {
+    for (std::size_t i = 0; i < task.points.size(); ++i) {
+      if (stage.is_held[i] != 0) {
+        points.push_back(i);
+      }
+    }
+  }
+  return points;
+}
+
 /// The lattice as it is, if that does, or if refining does not help.
 Stage solved_stage(Stage first, const PullTask& task, std::span<const glm::dvec3> model,
                    std::span<const glm::dvec3> places, const Progress& progress) {
   solve(task, model, places, progress, first);
   Stage last = first;
   for (int round = 0; round < task.most_refinements; ++round) {
-    const std::vector<std::size_t> missed = missing(task, last);
-    if (missed.empty() || last.lattice.as<ThbLattice>()->hierarchy->n_levels() == kMostThbLevels) {
+    const std::vector<std::size_t> points = strained(task, last);
+    if (points.empty() || last.lattice.as<ThbLattice>()->hierarchy->n_levels() == kMostThbLevels) {
       break;
     }
-    last = refined(last, task, model, missed);
+    last = refined(last, task, model, points);
     solve(task, model, places, progress, last);
   }
-  const bool helps = largest(last.residuals) < (1 - kSamePlace) * largest(first.residuals);
+  const bool helps = missing(task.points, first, kReached).empty()
+                         ? gain_of(last) < gain_of(first)
+                         : largest(last.residuals) < (1 - kSamePlace) * largest(first.residuals);
   return helps ? last : first;
 }
 
@@ -228,13 +254,15 @@ PulledPose pulled_pose(const Lattice& lattice, std::shared_ptr<const Volume> vol
   for (std::size_t i = 0; i < pose.size(); ++i) {
     pose[i] += step * stage.motion[i];
   }
+  const bool has_misses = !missing(task.points, stage, kMiss).empty();
   PulledPose result{stage.lattice.with_pose(std::move(pose)),
                     std::move(task.points),
                     std::move(places),
                     stage.residuals,
                     stage.is_held,
                     step,
-                    largest(stage.residuals) / stage.volume->diagonal()};
+                    has_misses,
+                    gain_of(stage)};
   for (std::size_t i = 0; i < result.residuals.size(); ++i) {
     const glm::dvec3 done = stage.wanted[i] - result.residuals[i];
     result.residuals[i] = stage.wanted[i] - step * done;

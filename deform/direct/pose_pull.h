@@ -25,7 +25,9 @@ struct PullTask {
   std::vector<double> mobilities = {};  ///< as smallest_motion() takes them
   bool is_smooth = false;               ///< by the smoothest motion instead of the smallest
   bool stops_at_fold = false;           ///< go only as far as is certified to fold nothing
-  int most_refinements = 0;  ///< levels to add under points that cannot be taken to their goals
+  /// Levels to add under points that cannot be taken to their goals, or only by moving control
+  /// points more than Pull::kMostGain times as far.
+  int most_refinements = 0;
 };
 
 /// What came of it.
@@ -36,7 +38,8 @@ struct PulledPose {
   std::vector<glm::dvec3> residuals;  ///< #points: what is missing to their goals
   std::vector<char> is_held;          ///< #points: 0 for an optional one outside the lattice
   double step = 1;                    ///< part of the way that was gone
-  double largest_miss = 0;            ///< of the whole way, as a part of the lattice's diagonal
+  bool has_misses = false;            ///< the lattice cannot take all points to their goals
+  double gain = 0;                    ///< how much farther control points move than any point is to
 };
 
 /// Starts from the lattice's pose. volume: what the lattice froze into. model: its points. Throws

@@ -15,9 +15,10 @@ namespace {
 
 /// Solving once, then for what round-off left.
 constexpr int kRounds = 2;
-/// Of groups, while control points move too far.
-constexpr double kLeastTolerance = 1e-8;
-constexpr double kMostTolerance = 0.1;
+/// Of groups, more and more while control points move too far.
+constexpr double kLeastDamping = 1e-6;
+constexpr double kMostDamping = 0.3;
+constexpr double kMoreDamping = 2;
 
 StencilTable with_no_empty_row(StencilTable rows) {
   for (std::size_t i = 0; i < rows.n_rows(); ++i) {
@@ -120,12 +121,12 @@ PullMotion Pull::motion(std::span<const glm::dvec3> wanted) const {
   if (!groups_) {
     return solved(wanted, nullptr);
   }
-  const double most =
-      kMostGain * std::max(largest(wanted), largest(solved(wanted, nullptr).motion));
+  const double of_picks = n_picks_ > 0 ? largest(solved(wanted, nullptr).motion) : 0;
+  const double most = kMostGain * largest(wanted) + of_picks;
   PullMotion result = solved(wanted, &*groups_);
-  for (double tolerance = kLeastTolerance;
-       largest(result.motion) > most && tolerance <= kMostTolerance; tolerance *= 10) {
-    const MinimumNorm groups = groups_->with_tolerance(tolerance);
+  for (double damping = kLeastDamping; largest(result.motion) > most && damping <= kMostDamping;
+       damping *= kMoreDamping) {
+    const MinimumNorm groups = groups_->with_damping(damping);
     result = solved(wanted, &groups);
   }
   return result;

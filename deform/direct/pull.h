@@ -29,7 +29,7 @@ struct PullMotion {
 /// Points of groups come after the picks: they do what they can without disturbing these. Many
 /// points side by side ask for bends that a lattice can only make by throwing its control points
 /// far away; so groups are not met exactly where control points would move more than kMostGain
-/// times as far as points are to, or as picks alone move them.
+/// times as far as points are to, beyond what picks alone ask of them.
 class Pull {
  public:
   /// rows: #picks × #controls, the picked rows of control_weights(), or combinations of them.

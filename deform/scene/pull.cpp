@@ -16,8 +16,8 @@
 namespace espalier {
 namespace {
 
-/// Points that miss by more than this part of the lattice's diagonal are told about.
-constexpr double kMiss = 1e-9;
+/// Control points that move so many times as far as picks bend space more than anybody wants.
+constexpr double kFarGain = 10;
 
 /// That of a bound model, or a new one.
 std::shared_ptr<const Volume> volume_of(const Scene& scene, const Arguments& arguments,
@@ -35,7 +35,8 @@ std::shared_ptr<const Volume> volume_of(const Scene& scene, const Arguments& arg
 PullReport report_of(const PullRequest& request, const PulledPose& pulled) {
   PullReport report;
   report.step = pulled.step;
-  report.has_misses = pulled.largest_miss > kMiss;
+  report.has_misses = pulled.has_misses;
+  report.gain = pulled.gain;
   for (const RequestedGroup& group : request.groups) {
     report.groups.push_back({group.name});
   }
@@ -70,14 +71,19 @@ void require_held(const PullReport& report) {
 
 std::string PullReport::sentence() const {
   std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
   if (step < 1) {
-    text = fmt::format("stopped at {} of the way, where the lattice begins to fold", step);
+    add(fmt::format("stopped at {} of the way, where the lattice begins to fold", step));
   }
   if (has_misses) {
-    text += text.empty() ? "" : "; ";
-    text +=
-        "the lattice is too coarse to take all picks to their targets: refine it, unpin "
-        "control points or give fewer picks";
+    add("the lattice is too coarse to take all picks to their targets: refine it, unpin control "
+        "points or give fewer picks");
+  }
+  if (gain > kFarGain) {
+    add(
+        fmt::format("control points would move {:.0f} times as far as picks: a finer lattice, or a "
+                    "smooth motion, keeps them closer",
+                    gain));
   }
   return text;
 }

@@ -34,8 +34,10 @@ struct PullReport {
   std::size_t n_added_control_points = 0;  ///< by refining
   bool has_misses = false;  ///< whether the lattice cannot take all points to their goals
 
-  /// What a person should know: where it stopped, and that the lattice is too coarse; empty if all
-  /// is well.
+  double gain = 0;  ///< how much farther control points move than any point is to
+
+  /// What a person should know: where it stopped, that the lattice is too coarse, and that control
+  /// points are thrown far away; empty if all is well.
   [[nodiscard]] std::string sentence() const;
 };
 

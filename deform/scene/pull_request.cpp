@@ -253,7 +253,8 @@ std::vector<Parameter> pull_parameters() {
                      "of as few control points as little as they can"),
       flag_parameter("stop-at-fold", "go only as far as is certified to fold nothing"),
       flag_parameter("refine",
-                     "of a thb lattice: refine under picks that cannot be met, until they are"),
+                     "of a thb lattice: refine under picks that cannot be met, or only by throwing "
+                     "control points away, until they are"),
       {.name = "levels", .type = Type::Integer, .help = "of --refine: at most (default 8)"},
       {.name = "freeze",
        .type = Type::Text,

@@ -293,6 +293,34 @@ TEST(PullOperation, refine_meets_what_a_coarse_lattice_cannot_and_keeps_the_defo
   EXPECT_NE(refusal(box_scene(), picks + " refine=true"), "no error");
 }
 
+TEST(PullOperation, refine_keeps_control_points_close_and_the_motion_local) {
+  const Scene scene = scene_with("new thb counts=6,6,6");
+  const std::string picks =
+      "pick=40=4,4,5 pick=39=3.25,4,4 pick=41=4.75,4,4 pick=31=4,3.25,4 "
+      "pick=49=4,4.75,4 ";
+  const PulledScene coarse = pulled(scene, picks);
+  const PulledScene fine = pulled(scene, picks + "refine=true");
+  EXPECT_LT(coarse.report.picks[0].residual.z, 1e-12);
+  EXPECT_GT(coarse.report.gain, 3);
+  EXPECT_LT(fine.report.gain, 3);
+  EXPECT_GT(fine.report.n_added_control_points, 0u);
+  const auto rest = model_in(scene, "m").points();
+  EXPECT_GT(glm::distance(moved_model(coarse.scene)[20], rest[20]), 0.01);
+  EXPECT_LT(glm::distance(moved_model(fine.scene)[20], rest[20]), 0.01);
+}
+
+TEST(PullOperation, groups_do_what_they_can_without_throwing_control_points_away) {
+  // Half of a plate up, half down, in a lattice that has no crease there.
+  const PulledScene after =
+      pulled(scene_with("new bspline counts=6,6,6"),
+             "magnet=0-3,9-12,18-21,27-30=0,0,0.3 magnet=4-8,13-17,22-26=0,0,-0.3 pick=58=4,5.5,4.1");
+  EXPECT_LE(after.report.gain, 3.5);
+  EXPECT_LT(glm::length(after.report.picks[0].residual), 1e-12);
+  EXPECT_GT(after.report.groups[0].largest_residual, 1e-6);
+  EXPECT_LT(after.report.groups[0].largest_residual, 0.3);
+  EXPECT_TRUE(after.report.has_misses);
+}
+
 TEST(PullOperation, refine_stops_at_the_most_levels_and_leaves_a_lattice_that_needs_none) {
   const Scene scene = scene_with("new thb counts=8,8,8");
   const PulledScene met = pulled(scene, "pick=40=4.1,4,4 refine=true");
