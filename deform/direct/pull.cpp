@@ -13,12 +13,12 @@
 namespace espalier {
 namespace {
 
-/// Solving once, then for what round-off left.
+/// Solving once, then for what round-off left if that is more than a part of what is wanted.
 constexpr int kRounds = 2;
-/// Of groups, more and more while control points move too far.
-constexpr double kLeastDamping = 1e-6;
-constexpr double kMostDamping = 0.3;
-constexpr double kMoreDamping = 2;
+constexpr double kRoundOff = 4e-15;
+/// Of groups, while control points move too far: powers of two.
+constexpr int kLeastDamping = -20;
+constexpr int kMostDamping = 4;
 
 StencilTable with_no_empty_row(StencilTable rows) {
   for (std::size_t i = 0; i < rows.n_rows(); ++i) {
@@ -100,7 +100,8 @@ PullMotion Pull::solved(std::span<const glm::dvec3> wanted, const MinimumNorm* g
       result.residuals[i] = wanted[i] - done[i];
     }
   };
-  for (int round = 0; round < kRounds; ++round) {
+  const double round_off = kRoundOff * largest(wanted);
+  for (int round = 0; round < kRounds && largest(result.residuals) > round_off; ++round) {
     if (groups != nullptr && n_picks_ == 0) {
       const MinimumNormSolution found = groups->solve(result.residuals);
       move(found.y, found.a);
@@ -124,12 +125,24 @@ PullMotion Pull::motion(std::span<const glm::dvec3> wanted) const {
   const double of_picks = n_picks_ > 0 ? largest(solved(wanted, nullptr).motion) : 0;
   const double most = kMostGain * largest(wanted) + of_picks;
   PullMotion result = solved(wanted, &*groups_);
-  for (double damping = kLeastDamping; largest(result.motion) > most && damping <= kMostDamping;
-       damping *= kMoreDamping) {
-    const MinimumNorm groups = groups_->with_damping(damping);
-    result = solved(wanted, &groups);
+  if (largest(result.motion) <= most) {
+    return result;
   }
-  return result;
+  const auto damped = [&](int power) {
+    const MinimumNorm groups = groups_->with_damping(std::ldexp(1.0, power));
+    return solved(wanted, &groups);
+  };
+  int least = kLeastDamping;
+  int enough = kMostDamping;
+  while (least < enough) {
+    const int middle = least + (enough - least) / 2;
+    if (largest(damped(middle).motion) <= most) {
+      enough = middle;
+    } else {
+      least = middle + 1;
+    }
+  }
+  return damped(enough);
 }
 
 /// Along the normal all points are asked for, across it only the picks: two problems, as

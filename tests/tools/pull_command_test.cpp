@@ -91,7 +91,7 @@ TEST_F(PullCommand, refines_a_lattice_until_it_can) {
 }
 
 TEST_F(PullCommand, tells_of_surface_points_images_and_groups) {
-  const Json json = pull({"--pick-at", "4,3,9=4,3,3.5", "--pick", "2=2,2,2.25", "--symmetry", "y:4",
+  const Json json = pull({"--pick-at", "3,3,3=3,3,3.5", "--pick", "2=2,2,2.25", "--symmetry", "y:4",
                           "--magnet", "1,3=0,0,0.1"});
   ASSERT_EQ(json["picks"].size(), 4u);
   EXPECT_EQ(json["picks"][0]["index"], 2);
