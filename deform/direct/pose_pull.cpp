@@ -1,9 +1,11 @@
 #include "deform/direct/pose_pull.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <utility>
 
 #include "deform/direct/pull.h"
@@ -43,6 +45,24 @@ double largest(std::span<const glm::dvec3> vectors) {
     most = std::max(most, glm::length(v));
   }
   return most;
+}
+
+/// Throws LatticeError naming a patch that is flat at rest.
+void require_volume(const Volume& volume) {
+  constexpr double kFlat = 1e-12;
+  BezierPatch patch;
+  for (std::size_t i = 0; i < volume.n_patches(); ++i) {
+    volume.bezier(i, volume.rest_points(), patch);
+    const glm::dmat3 J = patch.derivative(glm::dvec3(0.5));
+    const double sides = glm::length(J[0]) * glm::length(J[1]) * glm::length(J[2]);
+    if (!(std::abs(glm::determinant(J)) > kFlat * sides)) {
+      const glm::dvec3 place = patch.value(glm::dvec3(0.5));
+      throw LatticeError(fmt::format(
+          "the lattice at rest is singular in patch {}, round ({}, {}, {}): a point there has no "
+          "place in it",
+          i, place.x, place.y, place.z));
+    }
+  }
 }
 
 /// How pulled points move with the pose as it is.
@@ -152,6 +172,7 @@ std::vector<std::size_t> missing(std::span<const PulledPoint> points, const Stag
   for (const glm::dvec3& p : stage.volume->rest_controls()) {
     size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
+  size = std::max(size, largest(stage.wanted));
   std::vector<std::size_t> missed;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double reached = points[i].aim == Aim::Place ? of_picks : kReachedByGroups;
@@ -233,6 +254,7 @@ PulledPose pulled_pose(const Lattice& lattice, std::shared_ptr<const Volume> vol
     throw ParameterError("'refine' needs a thb lattice, this one is of type " +
                          std::string(lattice.type()));
   }
+  require_volume(*volume);
   if (task.symmetry) {
     task.points =
         with_images(std::move(task.points), model, *task.symmetry, kSamePlace * volume->diagonal());

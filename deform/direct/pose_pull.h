@@ -44,8 +44,9 @@ struct PulledPose {
 
 /// Starts from the lattice's pose. volume: what the lattice froze into. model: its points. Throws
 /// ParameterError naming points that are outside, that contradict each other, or, for a lattice
-/// that is not hierarchical, refinements; LatticeError for a pose that is folded or a lattice that
-/// is singular at rest, if it is to stop at folds. Tells `progress` "embed".
+/// that is not hierarchical, refinements; LatticeError for a lattice that is singular at rest, and
+/// for a pose that is folded where the motion begins, if it is to stop at folds. Tells `progress`
+/// "embed".
 [[nodiscard]] PulledPose pulled_pose(const Lattice& lattice, std::shared_ptr<const Volume> volume,
                                      std::span<const glm::dvec3> model, PullTask task,
                                      const Progress& progress = {});

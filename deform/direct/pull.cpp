@@ -15,7 +15,7 @@ namespace {
 
 /// Solving once, then for what round-off left if that is more than a part of what is wanted.
 constexpr int kRounds = 2;
-constexpr double kRoundOff = 4e-15;
+constexpr double kRoundOff = 1e-13;
 /// Of groups, while control points move too far: powers of two.
 constexpr int kLeastDamping = -20;
 constexpr int kMostDamping = 4;
