@@ -10,6 +10,7 @@
 
 #include "deform/direct/pull.h"
 #include "deform/direct/smooth_motion.h"
+#include "deform/direct/table_rows.h"
 #include "deform/embed/embed.h"
 #include "deform/injectivity/injectivity.h"
 #include "lattice/core/error.h"
@@ -38,14 +39,6 @@ struct Stage {
   std::vector<glm::dvec3> residuals = {};  // the same
   std::vector<char> is_held = {};          // the same
 };
-
-double largest(std::span<const glm::dvec3> vectors) {
-  double most = 0;
-  for (const glm::dvec3& v : vectors) {
-    most = std::max(most, glm::length(v));
-  }
-  return most;
-}
 
 /// Throws LatticeError naming a patch that is flat at rest.
 void require_volume(const Volume& volume) {
@@ -87,16 +80,6 @@ glm::dvec3 wanted_move(const PullTask& task, const PulledPoint& point, const glm
   }
 }
 
-/// Some rows of a table.
-StencilTable selected(const StencilTable& rows, std::span<const std::size_t> which) {
-  return StencilTable::build(which.size(), rows.n_controls(), [&](std::size_t i, StencilRow& row) {
-    const StencilTable::Row source = rows[which[i]];
-    for (std::size_t k = 0; k < source.indices.size(); ++k) {
-      row.add(source.indices[k], source.weights[k]);
-    }
-  });
-}
-
 /// Solves for the rows of the points that are held.
 PullMotion solved(const PullTask& task, const Stage& stage, const StencilTable& rows,
                   std::span<const std::size_t> held) {
@@ -115,7 +98,7 @@ PullMotion solved(const PullTask& task, const Stage& stage, const StencilTable& 
       wanted.push_back(stage.wanted[i]);
     }
   }
-  const StencilTable all = selected(rows, held);
+  const StencilTable all = selected_rows(rows, held);
   const auto energy = task.is_smooth
                           ? smooth_motion(all, neighbour_differences(stage.lattice, *stage.volume),
                                           stage.mobilities)
@@ -123,8 +106,8 @@ PullMotion solved(const PullTask& task, const Stage& stage, const StencilTable& 
   if (flat.empty()) {
     return Pull(all, energy, n_of_groups).motion(wanted);
   }
-  return pull_with_plane(selected(rows, free), n_of_groups, wanted,
-                         {selected(rows, flat), task.plane_normal}, distances, energy);
+  return pull_with_plane(selected_rows(rows, free), n_of_groups, wanted,
+                         {selected_rows(rows, flat), task.plane_normal}, distances, energy);
 }
 
 void solve(const PullTask& task, std::span<const glm::dvec3> model,
@@ -172,7 +155,7 @@ std::vector<std::size_t> missing(std::span<const PulledPoint> points, const Stag
   for (const glm::dvec3& p : stage.volume->rest_controls()) {
     size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
-  size = std::max(size, largest(stage.wanted));
+  size = std::max(size, longest(stage.wanted));
   std::vector<std::size_t> missed;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double reached = points[i].aim == Aim::Place ? of_picks : kReachedByGroups;
@@ -209,8 +192,8 @@ Stage refined(const Stage& stage, const PullTask& task, std::span<const glm::dve
 
 /// How much farther control points move than any point is to.
 double gain_of(const Stage& stage) {
-  const double wanted = largest(stage.wanted);
-  return wanted > 0 ? largest(stage.motion) / wanted : 0;
+  const double wanted = longest(stage.wanted);
+  return wanted > 0 ? longest(stage.motion) / wanted : 0;
 }
 
 /// The points to refine under: those that miss their goals, or all if they are taken there by
@@ -242,7 +225,7 @@ Stage solved_stage(Stage first, const PullTask& task, std::span<const glm::dvec3
   }
   const bool helps = missing(task.points, first, kReached).empty()
                          ? gain_of(last) < gain_of(first)
-                         : largest(last.residuals) < (1 - kSamePlace) * largest(first.residuals);
+                         : longest(last.residuals) < (1 - kSamePlace) * longest(first.residuals);
   return helps ? last : first;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "deform/direct/table_rows.h"
 #include "lattice/core/error.h"
 
 namespace espalier {
@@ -43,27 +44,6 @@ void require_targets(std::span<const glm::dvec3> wanted, std::size_t n_picks) {
   }
 }
 
-void add_row(const StencilTable::Row& source, StencilRow& row) {
-  for (std::size_t k = 0; k < source.indices.size(); ++k) {
-    row.add(source.indices[k], source.weights[k]);
-  }
-}
-
-/// Rows [begin, end) of a table.
-StencilTable part_of(const StencilTable& rows, std::size_t begin, std::size_t end) {
-  return StencilTable::build(end - begin, rows.n_controls(), [&](std::size_t i, StencilRow& row) {
-    add_row(rows[begin + i], row);
-  });
-}
-
-double largest(std::span<const glm::dvec3> vectors) {
-  double most = 0;
-  for (const glm::dvec3& v : vectors) {
-    most = std::max(most, glm::length(v));
-  }
-  return most;
-}
-
 MinimumNorm solver_of(const StencilTable& rows, const MotionEnergy& energy) {
   return MinimumNorm(energy.columns(rows), energy.free_columns(rows));
 }
@@ -77,9 +57,9 @@ Pull::Pull(StencilTable rows, std::shared_ptr<const MotionEnergy> energy, std::s
     : rows_(with_no_empty_row(std::move(rows))),
       energy_(std::move(energy)),
       n_picks_(rows_.n_rows() - n_of_groups),
-      picks_(solver_of(part_of(rows_, 0, n_picks_), *energy_)) {
+      picks_(solver_of(row_range(rows_, 0, n_picks_), *energy_)) {
   if (n_of_groups > 0) {
-    const StencilTable others = part_of(rows_, n_picks_, rows_.n_rows());
+    const StencilTable others = row_range(rows_, n_picks_, rows_.n_rows());
     groups_ = n_picks_ == 0 ? solver_of(others, *energy_)
                             : MinimumNorm(picks_.independent_part(energy_->columns(others),
                                                                   energy_->free_columns(others)));
@@ -100,8 +80,8 @@ PullMotion Pull::solved(std::span<const glm::dvec3> wanted, const MinimumNorm* g
       result.residuals[i] = wanted[i] - done[i];
     }
   };
-  const double round_off = kRoundOff * largest(wanted);
-  for (int round = 0; round < kRounds && largest(result.residuals) > round_off; ++round) {
+  const double round_off = kRoundOff * longest(wanted);
+  for (int round = 0; round < kRounds && longest(result.residuals) > round_off; ++round) {
     if (groups != nullptr && n_picks_ == 0) {
       const MinimumNormSolution found = groups->solve(result.residuals);
       move(found.y, found.a);
@@ -122,10 +102,10 @@ PullMotion Pull::motion(std::span<const glm::dvec3> wanted) const {
   if (!groups_) {
     return solved(wanted, nullptr);
   }
-  const double of_picks = n_picks_ > 0 ? largest(solved(wanted, nullptr).motion) : 0;
-  const double most = kMostGain * largest(wanted) + of_picks;
+  const double of_picks = n_picks_ > 0 ? longest(solved(wanted, nullptr).motion) : 0;
+  const double most = kMostGain * longest(wanted) + of_picks;
   PullMotion result = solved(wanted, &*groups_);
-  if (largest(result.motion) <= most) {
+  if (longest(result.motion) <= most) {
     return result;
   }
   const auto damped = [&](int power) {
@@ -136,7 +116,7 @@ PullMotion Pull::motion(std::span<const glm::dvec3> wanted) const {
   int enough = kMostDamping;
   while (least < enough) {
     const int middle = least + (enough - least) / 2;
-    if (largest(damped(middle).motion) <= most) {
+    if (longest(damped(middle).motion) <= most) {
       enough = middle;
     } else {
       least = middle + 1;
@@ -163,7 +143,7 @@ PullMotion pull_with_plane(const StencilTable& rows, std::size_t n_of_groups,
     along.emplace_back(distance, 0, 0);
   }
   const PullMotion of_normal =
-      Pull(stacked(rows, plane.rows), energy, n_of_groups + distances.size()).motion(along);
+      Pull(stacked_rows(rows, plane.rows), energy, n_of_groups + distances.size()).motion(along);
   PullMotion result{std::vector<glm::dvec3>(of_normal.motion.size(), glm::dvec3(0)), {}};
   if (rows.n_rows() > 0) {
     result = Pull(rows, energy, n_of_groups).motion(across);
@@ -178,11 +158,12 @@ PullMotion pull_with_plane(const StencilTable& rows, std::size_t n_of_groups,
   return result;
 }
 
-StencilTable stacked(const StencilTable& first, const StencilTable& second) {
-  const std::size_t n = first.n_rows();
-  return StencilTable::build(
-      n + second.n_rows(), second.n_controls(),
-      [&](std::size_t i, StencilRow& row) { add_row(i < n ? first[i] : second[i - n], row); });
+double longest(std::span<const glm::dvec3> vectors) {
+  double most = 0;
+  for (const glm::dvec3& v : vectors) {
+    most = std::max(most, glm::length(v));
+  }
+  return most;
 }
 
 }  // namespace espalier

@@ -77,7 +77,7 @@ struct PlaneRows {
                                          std::span<const double> distances,
                                          const std::shared_ptr<const MotionEnergy>& energy);
 
-/// The rows of one table, then those of another over the same control points.
-[[nodiscard]] StencilTable stacked(const StencilTable& first, const StencilTable& second);
+/// The greatest length of vectors, 0 for none.
+[[nodiscard]] double longest(std::span<const glm::dvec3> vectors);
 
 }  // namespace espalier

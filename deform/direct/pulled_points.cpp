@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "deform/direct/table_rows.h"
 #include "deform/embed/embed.h"
 #include "deform/evaluate/weights.h"
 #include "lattice/core/box_tree.h"
@@ -98,10 +99,7 @@ StencilTable rows_of(const Volume& volume, std::span<const PulledPoint> points,
   StencilTable rows =
       StencilTable::build(points.size(), volume.n_controls(), [&](std::size_t i, StencilRow& row) {
         for (const auto& [corner, weight] : sums[i]) {
-          const StencilTable::Row source = weights[corner];
-          for (std::size_t k = 0; k < source.indices.size(); ++k) {
-            row.add(source.indices[k], weight * source.weights[k]);
-          }
+          add_row(weights[corner], weight, row);
         }
       });
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "deform/direct/table_rows.h"
 #include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
 
@@ -230,13 +231,8 @@ StencilTable block_differences(const ThbLattice& lattice, const Volume& volume) 
   const StencilTable& points = volume.stencils();
   return StencilTable::build(pairs.size(), points.n_controls(), [&](std::size_t i, auto& row) {
     const double scale = std::sqrt(std::ldexp(1.0, -pairs[i].level));
-    for (const auto& [point, sign] :
-         {std::pair(pairs[i].a, scale), std::pair(pairs[i].b, -scale)}) {
-      const StencilTable::Row stencil = points[static_cast<std::size_t>(point)];
-      for (std::size_t k = 0; k < stencil.indices.size(); ++k) {
-        row.add(stencil.indices[k], sign * stencil.weights[k]);
-      }
-    }
+    add_row(points[static_cast<std::size_t>(pairs[i].a)], scale, row);
+    add_row(points[static_cast<std::size_t>(pairs[i].b)], -scale, row);
   });
 }
 

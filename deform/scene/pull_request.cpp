@@ -59,7 +59,7 @@ void add_surface_picks(const Arguments& arguments, const Model& model, PullReque
     point.option = "pick-at";
     point.point = closest_surface_point(model, place);
     const glm::dvec3 found = place_of(point.point, model.points());
-    point.name = fmt::format("the surface at ({}, {}, {})", found.x, found.y, found.z);
+    point.name = fmt::format("the surface at ({:.6g}, {:.6g}, {:.6g})", found.x, found.y, found.z);
     request.picks.push_back({point.name});
     request.task.points.push_back(std::move(point));
   }

@@ -363,6 +363,25 @@ TEST(PullOperation, gives_the_same_bits_for_any_number_of_threads) {
   set_thread_count(0);
 }
 
+TEST(PullOperation, is_a_line_of_the_journal) {
+  const OperationCall call = {
+      "pull", Arguments({{"lattice", std::string("box")},
+                         {"model", std::string("m")},
+                         {"pick", std::vector<std::string>{"40=4,4,4.5", "0=1,1,4"}},
+                         {"pick-at", std::vector<std::string>{"6,6,9=6,6,3.8"}},
+                         {"smooth", true}})};
+  const std::string line = text_of(call);
+  EXPECT_EQ(line,
+            "pull lattice=box model=m pick=\"40=4,4,4.5\" pick=\"0=1,1,4\" "
+            "pick-at=\"6,6,9=6,6,3.8\" smooth=true");
+  const Scene before = box_scene();
+  const Scene after = apply(parse_call(line), before);
+  const Scene direct = apply(call, before);
+  EXPECT_TRUE(std::ranges::equal(lattice_in(after, "box").posed_points(),
+                                 lattice_in(direct, "box").posed_points()));
+  EXPECT_LT(glm::distance(moved_model(after)[kMiddle], {4, 4, 4.5}), 1e-12);
+}
+
 TEST(PullOperation, names_contradictions_and_changes_nothing) {
   const Scene scene =
       with_model(box_scene(), "m",
