@@ -4,157 +4,74 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <glm/geometric.hpp>
 #include <string>
 #include <utility>
 
-#include "deform/direct/pivoted_qr.h"
+#include "deform/direct/table_rows.h"
 #include "lattice/core/error.h"
 
 namespace espalier {
 namespace {
 
-constexpr int kRefinements = 3;
+/// Solving once, then for what round-off left if that is more than a part of what is wanted.
+constexpr int kRounds = 2;
+constexpr double kRoundOff = 1e-13;
+/// Of groups, while control points move too far: powers of two.
+constexpr int kLeastDamping = -20;
+constexpr int kMostDamping = 4;
 
-/// What the factorisation takes for zero, relative to the first pivot.
-double tolerance_of(std::size_t n) {
-  return 8 * std::numeric_limits<double>::epsilon() * static_cast<double>(n);
-}
-
-/// Solves Rᵀ x = x in place; R: the first n columns of n rows of `stride` numbers.
-void solve_transposed(const std::vector<double>& R, std::size_t n, std::size_t stride,
-                      std::vector<glm::dvec3>& x) {
-  for (std::size_t i = 0; i < n; ++i) {
-    x[i] /= R[i * stride + i];
-    for (std::size_t k = i + 1; k < n; ++k) {
-      x[k] -= R[i * stride + k] * x[i];
-    }
-  }
-}
-
-/// Solves R x = x in place.
-void solve_upper(const std::vector<double>& R, std::size_t n, std::size_t stride,
-                 std::vector<glm::dvec3>& x) {
-  for (std::size_t i = n; i-- > 0;) {
-    glm::dvec3 sum = x[i];
-    for (std::size_t k = i + 1; k < n; ++k) {
-      sum -= R[i * stride + k] * x[k];
-    }
-    x[i] = sum / R[i * stride + i];
-  }
-}
-
-void check_mobilities(std::span<const double> mobilities, std::size_t n_controls) {
-  if (mobilities.size() != n_controls) {
-    throw ParameterError("there are " + std::to_string(mobilities.size()) + " mobilities for " +
-                         std::to_string(n_controls) + " control points: give one for each");
-  }
-  for (std::size_t i = 0; i < n_controls; ++i) {
-    if (!(mobilities[i] >= 0 && std::isfinite(mobilities[i]))) {
-      throw ParameterError("the mobility of control point " + std::to_string(i) + " is " +
-                           std::to_string(mobilities[i]) + ", must be 0 or more");
-    }
-  }
-}
-
-}  // namespace
-
-Pull::Pull(StencilTable rows, std::span<const double> mobilities)
-    : rows_(std::move(rows)), mobilities_(mobilities.begin(), mobilities.end()) {
-  if (mobilities_.empty()) {
-    mobilities_.assign(rows_.n_controls(), 1.0);
-  }
-  check_mobilities(mobilities_, rows_.n_controls());
-  // Only control points that some pick sees and that may move have a row of √W Rᵀ.
-  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> place(rows_.n_controls(), kNone);
-  std::size_t n_reached = 0;
-  const std::size_t n_picks = rows_.n_rows();
-  for (std::size_t i = 0; i < n_picks; ++i) {
-    if (rows_[i].indices.empty()) {
+StencilTable with_no_empty_row(StencilTable rows) {
+  for (std::size_t i = 0; i < rows.n_rows(); ++i) {
+    if (rows[i].indices.empty()) {
       throw ParameterError("pick " + std::to_string(i) +
                            " is outside the lattice: no control point moves it");
     }
-    for (const std::int32_t control : rows_[i].indices) {
-      const auto c = static_cast<std::size_t>(control);
-      if (place[c] == kNone && mobilities_[c] > 0) {
-        place[c] = n_reached++;
-      }
-    }
   }
-  std::vector<double> columns(n_reached * n_picks, 0.0);
-  for (std::size_t i = 0; i < n_picks; ++i) {
-    const StencilTable::Row row = rows_[i];
-    for (std::size_t k = 0; k < row.indices.size(); ++k) {
-      const auto c = static_cast<std::size_t>(row.indices[k]);
-      if (place[c] != kNone) {
-        columns[i * n_reached + place[c]] = row.weights[k] * std::sqrt(mobilities_[c]);
-      }
-    }
-  }
-  PivotedQr qr = pivoted_qr(std::move(columns), n_reached, n_picks,
-                            tolerance_of(std::max(n_reached, n_picks)));
-  rank_ = qr.rank;
-  order_ = std::move(qr.order);
-  R_ = std::move(qr.R);
-  if (rank_ < n_picks) {  // the rows of R are the columns of Rᵀ
-    PivotedQr fit = pivoted_qr(R_, n_picks, rank_, 0);
-    fit_ = std::move(fit.R);
-    fit_order_ = std::move(fit.order);
-  }
+  return rows;
 }
 
-/// √W Rᵀ = Q R with the picks in order_, so that the smallest solution is Q z with Rᵀ z as near as
-/// can be to what is wanted, and Q = √W Rᵀ R₁₁⁻¹ over the first picks.
-std::vector<glm::dvec3> Pull::solve(std::span<const glm::dvec3> wanted) const {
-  const std::size_t n_picks = rows_.n_rows();
-  std::vector<glm::dvec3> z(rank_);
-  if (rank_ == n_picks) {
-    for (std::size_t i = 0; i < n_picks; ++i) {
-      z[i] = wanted[order_[i]];
-    }
-    solve_transposed(R_, rank_, n_picks, z);
-  } else {
-    std::vector<glm::dvec3> ordered(rank_, glm::dvec3(0));
-    for (std::size_t i = 0; i < rank_; ++i) {
-      const double* row = &R_[fit_order_[i] * n_picks];
-      for (std::size_t k = 0; k < n_picks; ++k) {
-        ordered[i] += row[k] * wanted[order_[k]];
-      }
-    }
-    solve_transposed(fit_, rank_, rank_, ordered);
-    solve_upper(fit_, rank_, rank_, ordered);
-    for (std::size_t i = 0; i < rank_; ++i) {
-      z[fit_order_[i]] = ordered[i];
-    }
-  }
-  solve_upper(R_, rank_, n_picks, z);
-  std::vector<glm::dvec3> motion(rows_.n_controls(), glm::dvec3(0));
-  for (std::size_t i = 0; i < rank_; ++i) {
-    const StencilTable::Row row = rows_[order_[i]];
-    for (std::size_t k = 0; k < row.indices.size(); ++k) {
-      const auto c = static_cast<std::size_t>(row.indices[k]);
-      motion[c] += mobilities_[c] * row.weights[k] * z[i];
-    }
-  }
-  return motion;
-}
-
-PullMotion Pull::motion(std::span<const glm::dvec3> wanted) const {
-  if (wanted.size() != rows_.n_rows()) {
+void require_targets(std::span<const glm::dvec3> wanted, std::size_t n_picks) {
+  if (wanted.size() != n_picks) {
     throw ParameterError("there are " + std::to_string(wanted.size()) + " targets for " +
-                         std::to_string(rows_.n_rows()) + " picks: give one for each");
+                         std::to_string(n_picks) + " picks: give one for each");
   }
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
+  for (std::size_t i = 0; i < n_picks; ++i) {
     const glm::dvec3& v = wanted[i];
     if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) {
       throw ParameterError("the target of pick " + std::to_string(i) + " is not finite");
     }
   }
+}
+
+MinimumNorm solver_of(const StencilTable& rows, const MotionEnergy& energy) {
+  return MinimumNorm(energy.columns(rows), energy.free_columns(rows));
+}
+
+}  // namespace
+
+Pull::Pull(const StencilTable& rows, std::span<const double> mobilities)
+    : Pull(rows, smallest_motion(rows, mobilities)) {}
+
+Pull::Pull(StencilTable rows, std::shared_ptr<const MotionEnergy> energy, std::size_t n_of_groups)
+    : rows_(with_no_empty_row(std::move(rows))),
+      energy_(std::move(energy)),
+      n_picks_(rows_.n_rows() - n_of_groups),
+      picks_(solver_of(row_range(rows_, 0, n_picks_), *energy_)) {
+  if (n_of_groups > 0) {
+    const StencilTable others = row_range(rows_, n_picks_, rows_.n_rows());
+    groups_ = n_picks_ == 0 ? solver_of(others, *energy_)
+                            : MinimumNorm(picks_.independent_part(energy_->columns(others),
+                                                                  energy_->free_columns(others)));
+  }
+}
+
+/// Picks first, then what groups can do without them.
+PullMotion Pull::solved(std::span<const glm::dvec3> wanted, const MinimumNorm* groups) const {
   PullMotion result{std::vector<glm::dvec3>(rows_.n_controls(), glm::dvec3(0)),
                     {wanted.begin(), wanted.end()}};
-  for (int round = 0; round < kRefinements; ++round) {
-    const std::vector<glm::dvec3> more = solve(result.residuals);
+  const auto move = [&](std::span<const glm::dvec3> y, std::span<const glm::dvec3> a) {
+    const std::vector<glm::dvec3> more = energy_->motion(y, a);
     for (std::size_t i = 0; i < more.size(); ++i) {
       result.motion[i] += more[i];
     }
@@ -162,8 +79,91 @@ PullMotion Pull::motion(std::span<const glm::dvec3> wanted) const {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       result.residuals[i] = wanted[i] - done[i];
     }
+  };
+  const double round_off = kRoundOff * longest(wanted);
+  for (int round = 0; round < kRounds && longest(result.residuals) > round_off; ++round) {
+    if (groups != nullptr && n_picks_ == 0) {
+      const MinimumNormSolution found = groups->solve(result.residuals);
+      move(found.y, found.a);
+      continue;
+    }
+    const MinimumNormSolution found = picks_.solve(std::span(result.residuals).first(n_picks_));
+    move(found.y, found.a);
+    if (groups != nullptr) {
+      const auto change = groups->solve(std::span(result.residuals).subspan(n_picks_)).y;
+      move(change, picks_.free_change(change));
+    }
   }
   return result;
+}
+
+PullMotion Pull::motion(std::span<const glm::dvec3> wanted) const {
+  require_targets(wanted, rows_.n_rows());
+  if (!groups_) {
+    return solved(wanted, nullptr);
+  }
+  const double of_picks = n_picks_ > 0 ? longest(solved(wanted, nullptr).motion) : 0;
+  const double most = kMostGain * longest(wanted) + of_picks;
+  PullMotion result = solved(wanted, &*groups_);
+  if (longest(result.motion) <= most) {
+    return result;
+  }
+  const auto damped = [&](int power) {
+    const MinimumNorm groups = groups_->with_damping(std::ldexp(1.0, power));
+    return solved(wanted, &groups);
+  };
+  int least = kLeastDamping;
+  int enough = kMostDamping;
+  while (least < enough) {
+    const int middle = least + (enough - least) / 2;
+    if (longest(damped(middle).motion) <= most) {
+      enough = middle;
+    } else {
+      least = middle + 1;
+    }
+  }
+  return damped(enough);
+}
+
+/// Along the normal all points are asked for, across it only the picks: two problems, as
+/// coordinates do not depend on each other.
+PullMotion pull_with_plane(const StencilTable& rows, std::size_t n_of_groups,
+                           std::span<const glm::dvec3> wanted, const PlaneRows& plane,
+                           std::span<const double> distances,
+                           const std::shared_ptr<const MotionEnergy>& energy) {
+  require_targets(wanted, rows.n_rows());
+  const glm::dvec3& n = plane.normal;
+  std::vector<glm::dvec3> across;
+  std::vector<glm::dvec3> along;  // in x
+  for (const glm::dvec3& v : wanted) {
+    along.emplace_back(glm::dot(v, n), 0, 0);
+    across.push_back(v - glm::dot(v, n) * n);
+  }
+  for (const double distance : distances) {
+    along.emplace_back(distance, 0, 0);
+  }
+  const PullMotion of_normal =
+      Pull(stacked_rows(rows, plane.rows), energy, n_of_groups + distances.size()).motion(along);
+  PullMotion result{std::vector<glm::dvec3>(of_normal.motion.size(), glm::dvec3(0)), {}};
+  if (rows.n_rows() > 0) {
+    result = Pull(rows, energy, n_of_groups).motion(across);
+  }
+  for (std::size_t i = 0; i < result.motion.size(); ++i) {
+    result.motion[i] += of_normal.motion[i].x * n;
+  }
+  result.residuals.resize(of_normal.residuals.size(), glm::dvec3(0));
+  for (std::size_t i = 0; i < result.residuals.size(); ++i) {
+    result.residuals[i] += of_normal.residuals[i].x * n;
+  }
+  return result;
+}
+
+double longest(std::span<const glm::dvec3> vectors) {
+  double most = 0;
+  for (const glm::dvec3& v : vectors) {
+    most = std::max(most, glm::length(v));
+  }
+  return most;
 }
 
 }  // namespace espalier

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <utility>
 
+#include "deform/scene/index_list.h"
 #include "deform/scene/lattice_parameters.h"
 #include "deform/scene/operations.h"
 #include "lattice/build/cells.h"
@@ -16,6 +18,7 @@
 #include "lattice/core/error.h"
 #include "lattice/core/text_scanner.h"
 #include "lattice/subdivision/edit.h"
+#include "lattice/tensor/placed.h"
 #include "lattice/topology/crease.h"
 
 namespace espalier {
@@ -25,54 +28,20 @@ using Type = ParameterType;
 using Indices = std::vector<std::int32_t>;
 
 constexpr std::string_view kModelling = "modelling its cells";
-constexpr std::int64_t kLargestIndex = 2'000'000'000;
-constexpr std::int64_t kLongestRange = 10'000'000;
 
 // Lists of elements.
 
-std::vector<std::string> words_between(const std::string& text, char separator) {
-  std::vector<std::string> words = {""};
-  for (const char c : text) {
-    if (c == separator) {
-      words.emplace_back();
-    } else {
-      words.back() += c;
-    }
-  }
-  return words;
-}
-
-/// One index or two with a dash between; false for anything else.
-bool parse_indices(const std::string& word, Indices& indices) {
-  indices.clear();
-  for (const std::string& part : words_between(word, '-')) {
-    std::int64_t index = -1;
-    if (!parse_integer(part, index) || index < 0 || index > kLargestIndex) {
-      return false;
-    }
-    indices.push_back(static_cast<std::int32_t>(index));
-  }
-  return indices.size() <= 2;
-}
-
 /// The indices of a parameter like "0,3,7-9"; none if it is absent.
 Indices indices_of(const Arguments& arguments, const std::string& name) {
-  Indices indices;
   if (!arguments.has(name)) {
-    return indices;
+    return {};
   }
-  for (const std::string& word : words_between(arguments.text(name), ',')) {
-    Indices ends;
-    if (!parse_indices(word, ends) || ends.back() < ends.front() ||
-        ends.back() - ends.front() > kLongestRange) {
-      throw ParameterError("'" + name + "' is " + quoted(arguments.text(name)) +
-                           ", must be indices such as 0,3,7-9");
-    }
-    for (std::int32_t index = ends.front(); index <= ends.back(); ++index) {
-      indices.push_back(index);
-    }
+  std::optional<Indices> indices = parse_index_list(arguments.text(name));
+  if (!indices) {
+    throw ParameterError("'" + name + "' is " + quoted(arguments.text(name)) +
+                         ", must be indices such as 0,3,7-9");
   }
-  return indices;
+  return *std::move(indices);
 }
 
 /// The edges of a parameter like "0-1,4-5" by their ends; none if it is absent.
@@ -83,12 +52,12 @@ std::vector<std::array<std::int32_t, 2>> edges_of(const Arguments& arguments,
     return edges;
   }
   for (const std::string& word : words_between(arguments.text(name), ',')) {
-    Indices ends;
-    if (!parse_indices(word, ends) || ends.size() != 2) {
+    const auto ends = parse_indices(word);
+    if (!ends || ends->size() != 2) {
       throw ParameterError("'" + name + "' is " + quoted(arguments.text(name)) +
                            ", must be edges by their vertices, such as 0-1,4-5");
     }
-    edges.push_back({ends[0], ends[1]});
+    edges.push_back({(*ends)[0], (*ends)[1]});
   }
   return edges;
 }
@@ -186,14 +155,9 @@ Edited split(const CellMesh& mesh, const Arguments& arguments) {
   return split_layer(mesh, edges[0][0], edges[0][1], arguments.number("at"));
 }
 
-Edited transform(const CellMesh& mesh, const Arguments& arguments) {
+Placement placement_of(const Arguments& arguments) {
   if (!arguments.has("move") && !arguments.has("rotate") && !arguments.has("scale")) {
     throw ParameterError("'move', --rotate or --scale must be given");
-  }
-  Indices vertices = indices_of(arguments, "vertices");
-  if (!arguments.has("vertices")) {
-    vertices.resize(mesh.points.size());
-    std::iota(vertices.begin(), vertices.end(), 0);
   }
   Placement placement;
   placement.about = arguments.vector("about");
@@ -208,7 +172,30 @@ Edited transform(const CellMesh& mesh, const Arguments& arguments) {
   if (arguments.has("move")) {
     placement.by = arguments.vector("move");
   }
-  return placed(mesh, vertices, placement);
+  return placement;
+}
+
+/// A lattice of any type as a whole, or some vertices of a subdivision lattice.
+Scene transform(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  const std::string& name = arguments.text("lattice");
+  const std::string& output = arguments.text("output");
+  const Placement placement = placement_of(arguments);
+  const Lattice& lattice = lattice_in(scene, name);
+  if (const auto* tensor = lattice.as<TensorLattice>(); tensor && !arguments.has("vertices")) {
+    return with_lattice(scene, output, placed(*tensor, placement));
+  }
+  if (const auto* thb = lattice.as<ThbLattice>(); thb && !arguments.has("vertices")) {
+    return with_lattice(scene, output, placed(*thb, placement));
+  }
+  const SubdivisionLattice& cells = subdivision_lattice_in(scene, name, "moving some vertices");
+  const CellMesh mesh = mesh_of(cells);
+  Indices vertices = indices_of(arguments, "vertices");
+  if (!arguments.has("vertices")) {
+    vertices.resize(mesh.points.size());
+    std::iota(vertices.begin(), vertices.end(), 0);
+  }
+  return with_lattice(scene, output,
+                      edited_lattice(cells, placed(mesh, vertices, placement), progress));
 }
 
 Scene crease(const Scene& scene, const Arguments& arguments, const Progress&) {
@@ -351,16 +338,16 @@ std::vector<Operation> joining_operations() {
 std::vector<Operation> shaping_operations() {
   return {
       {"transform",
-       "Scale, rotate and move a lattice or some of its vertices, in this order",
+       "Scale, rotate and move a lattice, its pose too, or some of its vertices, in this order",
        {lattice_parameter(),
-        list_parameter("vertices", "such as 0,3,7-9 (default: all)"),
+        list_parameter("vertices", "of a subdivision lattice, such as 0,3,7-9 (default: all)"),
         vector_parameter("move", "by dx dy dz, model units"),
         {.name = "rotate", .type = Type::Number, .help = "by an angle in degrees"},
         vector_parameter("axis", "to rotate about (default 0 0 1)", {0, 0, 1}),
         vector_parameter("scale", "factors along x y z"),
         vector_parameter("about", "what rotating and scaling keep (default 0 0 0)", {0, 0, 0}),
         result_parameter("the lattice")},
-       editing(transform)},
+       transform},
       {"relax",
        "Even out the inner vertices of a lattice; its boundary stays",
        {lattice_parameter(),

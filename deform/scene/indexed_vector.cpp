@@ -19,6 +19,8 @@ std::string_view next_part(std::string_view& rest, char separator) {
   return part;
 }
 
+}  // namespace
+
 bool parse_vector(std::string_view text, glm::dvec3& vector) {
   if (std::count(text.begin(), text.end(), ',') != 2) {
     return false;
@@ -31,8 +33,6 @@ bool parse_vector(std::string_view text, glm::dvec3& vector) {
   }
   return true;
 }
-
-}  // namespace
 
 std::vector<IndexedVector> parse_indexed_vectors(const std::string& option,
                                                  const std::vector<std::string>& words,

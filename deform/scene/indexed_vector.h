@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace espalier {
@@ -14,6 +15,9 @@ struct IndexedVector {
   std::size_t index = 0;
   glm::dvec3 vector{0};
 };
+
+/// What "x,y,z" says; false unless these are three coordinates.
+[[nodiscard]] bool parse_vector(std::string_view text, glm::dvec3& vector);
 
 /// What "INDEX=x,y,z" says. Throws ParameterError naming `option` unless it is of that form, the
 /// numbers are coordinates and the index is below n, the number of `what`; or if an index occurs

@@ -28,18 +28,21 @@ glm::dmat3 rotation(const glm::dvec3& axis, double degrees) {
   return glm::dmat3(1) + std::sin(angle) * across + (1 - std::cos(angle)) * across * across;
 }
 
-Edited placed(const CellMesh& mesh, std::span<const std::int32_t> vertices,
-              const Placement& placement) {
-  check_selection(vertices, mesh.points.size(), "transform: vertex");
+void require_finite(const Placement& placement) {
   const glm::dvec3 all = placement.linear * glm::dvec3(1) + placement.about + placement.by;
   if (!std::isfinite(all.x) || !std::isfinite(all.y) || !std::isfinite(all.z)) {
     throw ParameterError("transform: all numbers must be finite");
   }
+}
+
+Edited placed(const CellMesh& mesh, std::span<const std::int32_t> vertices,
+              const Placement& placement) {
+  check_selection(vertices, mesh.points.size(), "transform: vertex");
+  require_finite(placement);
   MeshDraft draft(mesh);
   for (const std::int32_t vertex : vertices) {
     DraftVertex& moved = draft.vertices[static_cast<std::size_t>(vertex)];
-    moved.point =
-        placement.linear * (moved.point - placement.about) + placement.about + placement.by;
+    moved.point = placement.of(moved.point);
     moved.turn = placement.linear;
   }
   return finished(std::move(draft));

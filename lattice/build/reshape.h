@@ -17,7 +17,14 @@ struct Placement {
   glm::dmat3 linear{1};
   glm::dvec3 about{0};  ///< fixed by `linear`, model units
   glm::dvec3 by{0};     ///< model units
+
+  [[nodiscard]] glm::dvec3 of(const glm::dvec3& x) const {
+    return linear * (x - about) + about + by;
+  }
 };
+
+/// Throws ParameterError for a placement that is not finite.
+void require_finite(const Placement& placement);
 
 /// A turn about an axis through the origin. Throws ParameterError for an axis that is zero or not
 /// finite, or an angle that is not finite.

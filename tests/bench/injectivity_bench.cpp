@@ -3,12 +3,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <chrono>
-#include <glm/geometric.hpp>
-#include <random>
-
-#include "deform/direct/pull.h"
-#include "deform/evaluate/weights.h"
 #include "deform/injectivity/injectivity.h"
 #include "lattice/volume/bezier_evaluator.h"
 #include "tests/support/spline_volume.h"
@@ -128,30 +122,6 @@ void largest_step_of_a_drag(benchmark::State& state) {
   }
 }
 BENCHMARK(largest_step_of_a_drag)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
-
-/// 1,000 picks on 8,000 control points, after factorising.
-void pull_of_a_thousand_picks(benchmark::State& state) {
-  const auto controls = test::grid_points({19, 19, 19});
-  const Volume volume = test::spline_volume({19, 19, 19}, controls);
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> place(0.01, 18.99);
-  std::vector<glm::dvec3> points(1000);
-  for (glm::dvec3& p : points) {
-    p = {place(random), place(random), place(random)};
-  }
-  const auto start = std::chrono::steady_clock::now();
-  const Pull pull(control_weights(volume, embed(volume, points)));
-  const std::chrono::duration<double> factorising = std::chrono::steady_clock::now() - start;
-  const std::vector<glm::dvec3> wanted(points.size(), glm::dvec3(0.1, 0.2, 0.3));
-  double worst = 0;
-  for (auto _ : state) {
-    const PullMotion pulled = pull.motion(wanted);
-    worst = glm::length(pulled.residuals[0]);
-  }
-  state.counters["factorising_s"] = factorising.count();
-  state.counters["residual"] = worst;
-}
-BENCHMARK(pull_of_a_thousand_picks)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace espalier

@@ -16,6 +16,8 @@ void bench_evaluation();
 void bench_drags();
 /// Moving the vertices of refined lattices with their control points, with the mark of each line.
 void bench_reposing();
+/// Taking picked points where they are wanted, with the mark of each line.
+void bench_pulling();
 
 /// Hierarchies of B-splines, embedding in grids, and how many points control points move.
 void bench_tensor();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <random>
 
 #include "deform/evaluate/displace.h"
@@ -12,6 +13,7 @@
 #include "deform/injectivity/injectivity.h"
 #include "lattice/core/error.h"
 #include "lattice/subdivision/freeze.h"
+#include "lattice/tensor/tensor_lattice.h"
 #include "tests/support/families.h"
 #include "tests/support/spline_volume.h"
 
@@ -135,6 +137,68 @@ TEST(Pull, of_a_knot_may_go_as_far_as_is_known_in_closed_form) {
   EXPECT_NEAR(step({4, 4, 4}, {1, 1, 0}), 1.3136, 2e-4);
   EXPECT_NEAR(step({4, 4, 4}, {1, 1, 1}), 1.3011, 2e-4);
   EXPECT_NEAR(step({4.5, 4.5, 4.5}, {1, 0, 0}), 1.3281, 2e-4);
+}
+
+/// The lattice with the border points that tripled ends stand for: three at each, at one place.
+TensorLattice with_border_points(const TensorLattice& tripled, std::vector<std::size_t>& leaders) {
+  const std::array<int, 3> counts = tripled.counts();
+  const auto leader = [&](int i, std::size_t axis) {
+    return std::clamp(i - 2, 0, counts[axis] - 1);
+  };
+  TensorLattice all = tripled;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    all.axes[axis] = TensorAxis::make(counts[axis] + 4, 3, Ends::Uniform);
+  }
+  all.rest.clear();
+  for (int k = 0; k < counts[2] + 4; ++k) {
+    for (int j = 0; j < counts[1] + 4; ++j) {
+      for (int i = 0; i < counts[0] + 4; ++i) {
+        leaders.push_back(static_cast<std::size_t>(
+            leader(i, 0) + counts[0] * (leader(j, 1) + counts[1] * leader(k, 2))));
+        all.rest.push_back(tripled.rest[leaders.back()]);
+      }
+    }
+  }
+  return all;
+}
+
+TEST(Pull, moves_coupled_border_points_as_one) {
+  // [HHK92] eq. (6) and (7): Δq = B S ΔP, ΔP = (B S)ᵀ (B S Sᵀ Bᵀ)⁻¹ Δq, with the rows B of the
+  // lattice in which three border points are three.
+  const TensorAxis axis = TensorAxis::make(5, 3, Ends::Tripled);
+  const TensorLattice tripled =
+      make_tensor_lattice(TensorKind::BSpline, {axis, axis, axis}, {}, BoxFilling::Volume);
+  std::vector<std::size_t> leaders;
+  const Volume all = freeze(with_border_points(tripled, leaders));
+  for (const glm::dvec3& point : {glm::dvec3(0.02, 0.3, 0.01), glm::dvec3(0.9, 0.95, 0.5)}) {
+    const StencilTable B = picks(all, {point});
+    ASSERT_FALSE(B[0].indices.empty());
+    std::vector<double> BS(tripled.rest.size(), 0.0);
+    for (std::size_t k = 0; k < B[0].indices.size(); ++k) {
+      BS[leaders[static_cast<std::size_t>(B[0].indices[k])]] += B[0].weights[k];
+    }
+    const double squares = std::inner_product(BS.begin(), BS.end(), BS.begin(), 0.0);
+    const glm::dvec3 wanted(0.1, 0.2, -0.1);
+    const PullMotion pulled = Pull(picks(freeze(tripled), {point})).motion(std::span(&wanted, 1));
+    std::vector<glm::dvec3> border(leaders.size());
+    for (std::size_t i = 0; i < leaders.size(); ++i) {
+      border[i] = pulled.motion[leaders[i]];
+      EXPECT_LT(glm::distance(border[i], BS[leaders[i]] / squares * wanted), 1e-13);
+    }
+    EXPECT_LT(glm::distance(B.apply(border)[0], wanted), 1e-13);
+  }
+}
+
+TEST(Pull, keeps_the_digits_of_picks_that_nearly_coincide) {
+  const Volume volume = grid_volume(6);
+  for (const double apart : {1e-3, 1e-6, 1e-8}) {
+    const Pull pull(picks(volume, {{2.3, 3.1, 2.7}, {2.3 + apart, 3.1, 2.7}}));
+    EXPECT_EQ(pull.rank(), 2u);
+    const std::vector<glm::dvec3> wanted = {{0.1, 0, 0}, {0.1 + 0.1 * apart, 0, 0.2 * apart}};
+    for (const glm::dvec3& residual : pull.motion(wanted).residuals) {
+      EXPECT_LT(glm::length(residual), 1e-14) << apart;
+    }
+  }
 }
 
 TEST(Pull, names_bad_input) {

@@ -59,11 +59,53 @@ TEST_F(PullCommand, stops_where_the_lattice_begins_to_fold) {
 }
 
 TEST_F(PullCommand, says_when_the_lattice_is_too_coarse) {
-  write_file("model.obj", "v 4 4 4\nv 4 4 4\n");
-  const Json json = pull({"--pick", "0=4,4,5", "--pick", "1=4,4,4"});
-  EXPECT_NEAR(json["picks"][0]["residual"][2].get<double>(), 0.5, 1e-12);
-  EXPECT_NEAR(json["picks"][1]["residual"][2].get<double>(), -0.5, 1e-12);
+  done({"new", "bezier", "--counts", "2", "2", "2", "--min", "0", "0", "0", "--max", "8", "8", "8",
+        "-o", "box.json"});
+  write_file("model.obj", "v 4 4 4\nv 4 4 3\nv 4 4 5\n");
+  const Json json = pull({"--pick", "0=4,4,5", "--pick", "1=4,4,3", "--pick", "2=4,4,5"});
+  // A line stays one: the middle misses by 2/3, the ends by 1/3.
+  EXPECT_NEAR(json["picks"][0]["residual"][2].get<double>(), 2.0 / 3, 1e-12);
+  EXPECT_NEAR(json["picks"][1]["residual"][2].get<double>(), -1.0 / 3, 1e-12);
   EXPECT_NE(json["message"].get<std::string>().find("too coarse"), std::string::npos);
+}
+
+TEST_F(PullCommand, refines_a_lattice_until_it_can) {
+  done({"new", "thb", "--counts", "4", "4", "4", "--min", "0", "0", "0", "--max", "8", "8", "8",
+        "-o", "box.json"});
+  write_file("model.obj", "v 4 4 4\nv 4 4 3.5\nv 4 4 4.5\nv 4 4 3\nv 4 4 5\n");
+  const std::vector<std::string> picks = {"--pick", "0=4.1,4,4",   "--pick", "1=3.9,4,3.5",
+                                          "--pick", "2=3.9,4,4.5", "--pick", "3=4.1,4,3",
+                                          "--pick", "4=4.1,4,5"};
+  EXPECT_NE(pull(picks)["message"], "");
+  auto with_refine = picks;
+  with_refine.emplace_back("--refine");
+  const Json json = pull(with_refine);
+  EXPECT_GT(json["added_control_points"].get<int>(), 0);
+  EXPECT_EQ(json["message"], "");
+  for (const Json& pick : json["picks"]) {
+    EXPECT_LT(pick["distance"].get<double>(), 2e-11);
+  }
+  EXPECT_LT(glm::distance(deformed()[0], glm::dvec3(4.1, 4, 4)), 1e-6);
+  EXPECT_EQ(Json::parse(done({"info", "pulled.json", "--json"}))["control_points"],
+            64 + json["added_control_points"].get<int>());
+}
+
+TEST_F(PullCommand, tells_of_surface_points_images_and_groups) {
+  const Json json = pull({"--pick-at", "3,3,3=3,3,3.5", "--pick", "2=2,2,2.25", "--symmetry", "y:4",
+                          "--magnet", "1,3=0,0,0.1"});
+  ASSERT_EQ(json["picks"].size(), 4u);
+  EXPECT_EQ(json["picks"][0]["index"], 2);
+  EXPECT_FALSE(json["picks"][1].contains("index"));
+  EXPECT_EQ(json["picks"][2]["mirrored"], true);
+  EXPECT_EQ(point_of(json["picks"][2]["place"]), glm::dvec3(2, 6, 2));
+  ASSERT_EQ(json["groups"].size(), 1u);
+  EXPECT_EQ(json["groups"][0]["name"], "magnet 1,3");
+  EXPECT_EQ(json["groups"][0]["points"], 2);
+  EXPECT_EQ(json["groups"][0]["outside"], 2);
+  const std::string text = done(
+      {"pull", "box.json", "--model", "model.obj", "--magnet", "1,3=0,0,0.1", "-o", "pulled.json"});
+  EXPECT_NE(text.find("magnet 1,3: 1 points, at most "), std::string::npos);
+  EXPECT_NE(text.find("1 more are outside the lattice"), std::string::npos);
 }
 
 TEST_F(PullCommand, leaves_pinned_control_points) {
@@ -87,9 +129,41 @@ TEST_F(PullCommand, refuses_what_it_cannot_pick) {
             "--pick names point 4 of 4 points of the model, counted from 0");
   EXPECT_EQ(refused({"--pick", "0=1,nan,1"}),
             "--pick is '0=1,nan,1', must be INDEX=x,y,z with three finite numbers");
-  EXPECT_EQ(refused({"--pick", "0=1,1,1", "--pin", "729"}),
-            "--pin is '729', must be the index of one of 729 control points, from 0");
+  EXPECT_EQ(
+      refused({"--pick", "0=1,1,1", "--pin", "729"}),
+      "--pin is '729', must be the index of one of 729 control points, from 0, or several such "
+      "as 0,3,7-9");
+  EXPECT_EQ(refused({"--symmetry", "x"}), "--pick, --pick-at, --magnet or --flatten must be given");
+  EXPECT_EQ(refused({"--pick", "0=1,1,1", "--refine"}),
+            "--refine needs a thb lattice, this one is of type subdivision");
+  EXPECT_EQ(refused({"--pick", "0=1,1,1", "--pick-at", "4,4,4=4,4,nan"}),
+            "--pick-at is '4,4,4=4,4,nan', must be x,y,z=tx,ty,tz with six finite numbers: a place "
+            "on the model's surface and its goal");
+  write_file("model.obj", "v 4 4 4\nv 4 4 4\nv 2 2 2\nv 20 0 0\nf 1 2 3\n");
+  EXPECT_EQ(refused({"--pick", "0=4,4,5", "--pick", "1=4,4,4"}),
+            "--pick takes point 0 apart from point 1, which is at the same place (4, 4, 4): give "
+            "both the same goal");
   EXPECT_EQ(files(), (std::vector<std::string>{"box.json", "model.obj"}));
+}
+
+TEST_F(PullCommand, keeps_the_file_there_was_when_the_pose_or_the_lattice_is_folded) {
+  write_file("pulled.json", "as it was");
+  drag("box.json", "folded.json", 4 + 9 * (4 + 9 * 4), {7, 0, 0});
+  EXPECT_NE(refusal({"pull", "folded.json", "--model", "model.obj", "--pick", "0=4.5,4,4",
+                     "--stop-at-fold", "-o", "pulled.json"},
+                    1)
+                .find("folded.json: the pose is folded before anything moves"),
+            std::string::npos);
+  Json flat = read_json("box.json");
+  for (Json& vertex : flat["vertices"]) {
+    vertex[2] = 4;
+  }
+  write_json("flat.json", flat);
+  EXPECT_NE(refusal({"pull", "flat.json", "--model", "model.obj", "--pick", "0=4.5,4,4", "-o",
+                     "pulled.json"},
+                    1),
+            "");
+  EXPECT_EQ(read_file("pulled.json"), "as it was");
 }
 
 }  // namespace
