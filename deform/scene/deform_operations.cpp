@@ -9,12 +9,14 @@
 #include "deform/evaluate/combine.h"
 #include "deform/evaluate/displace.h"
 #include "deform/model/deformed.h"
+#include "deform/model/normals.h"
 #include "deform/model/point_selection.h"
 #include "deform/scene/bind.h"
 #include "deform/scene/lock.h"
 #include "deform/scene/operations.h"
 #include "deform/scene/pose.h"
 #include "lattice/core/error.h"
+#include "lattice/core/text_scanner.h"
 
 namespace espalier {
 namespace {
@@ -36,11 +38,49 @@ std::vector<glm::dvec3> turned_normals(const Model& model,
   return normals;
 }
 
-NormalMode normal_mode(const std::string& word) {
-  if (word == "keep") {
-    return NormalMode::Keep;
+/// What `normals` asks for.
+struct NormalChange {
+  NormalMode mode = NormalMode::Deform;
+  std::optional<SharpEdges> added;  // to a model without any
+};
+
+/// deform, keep, add or add:DEGREES.
+NormalChange normal_change(const std::string& word) {
+  if (word == "deform" || word == "keep") {
+    return {word == "keep" ? NormalMode::Keep : NormalMode::Deform, std::nullopt};
   }
-  return word == "add" ? NormalMode::Add : NormalMode::Deform;
+  SharpEdges sharp;
+  const bool is_angle = word.starts_with("add:") && parse_number(word.substr(4), sharp.angle);
+  if ((word != "add" && !is_angle) || !(sharp.angle >= 0 && sharp.angle <= 180)) {
+    throw ParameterError("'normals' is '" + word +
+                         "', must be deform, keep, add or add:DEGREES, from 0 to 180");
+  }
+  return {NormalMode::Deform, sharp};
+}
+
+/// The model moved, with normals that it does not have in its file: those at rest, turned.
+Model with_added_normals(const Model& model, std::span<const glm::dvec3> points, SharpEdges sharp,
+                         const std::vector<glm::dmat3>& gradients) {
+  sharp.smoothing_groups = smoothing_groups(model);
+  CornerNormals added = corner_normals(model.points(), model.faces(), sharp);
+  for (std::size_t i = 0; i < added.normals.size(); ++i) {
+    const glm::dvec3 turned =
+        turned_normal(gradients[static_cast<std::size_t>(added.points[i])], added.normals[i]);
+    added.normals[i] = turned == glm::dvec3(0) ? added.normals[i] : turned;
+  }
+  return deformed_with_normals(model, points, added);
+}
+
+/// The model moved by lattices.
+Model moved(const Model& model, std::span<const LatticeMotion> motions, const Influence& influence,
+            const NormalChange& change) {
+  const std::vector<glm::dvec3> points = combined_points(model.points(), motions, influence);
+  const auto gradients = [&] { return combined_gradients(points.size(), motions, influence); };
+  if (!model.pairs().empty()) {
+    return deformed(model, points, turned_normals(model, gradients()), change.mode);
+  }
+  return change.added ? with_added_normals(model, points, *change.added, gradients())
+                      : deformed(model, points, {}, change.mode);
 }
 
 /// The control points that the i-th lattice of the arguments takes.
@@ -144,6 +184,7 @@ Scene deform(const Scene& scene, const Arguments& arguments, const Progress& pro
   require_one_for_each_lattice(arguments, "binding");
   const Model& model = model_in(scene, arguments.text("model"));
   const Influence influence = influence_of(model, arguments);
+  const NormalChange change = normal_change(arguments.text("normals"));
   Scene result = scene;
   std::vector<LatticeMotion> motions;
   std::set<std::int32_t> torn;
@@ -152,14 +193,8 @@ Scene deform(const Scene& scene, const Arguments& arguments, const Progress& pro
     motions.push_back(std::move(action.motion));
     torn.insert(action.torn_faces.begin(), action.torn_faces.end());
   }
-  const std::vector<glm::dvec3> points = combined_points(model.points(), motions, influence);
-  std::vector<glm::dvec3> normals;
-  if (!model.pairs().empty()) {
-    normals = turned_normals(model, combined_gradients(points.size(), motions, influence));
-  }
-  Model moved = deformed(model, points, normals, normal_mode(arguments.text("normals")));
   const std::string& output = arguments.text("output");
-  result = with_model(std::move(result), output, std::move(moved));
+  result = with_model(std::move(result), output, moved(model, motions, influence, change));
   if (!torn.empty()) {
     result.torn_faces[output] = torn.size();
   }
@@ -265,10 +300,10 @@ std::vector<Operation> deform_operations() {
                  "file; repeats in the lattices' order, or stands for all (default none)",
          .is_list = true},
         {.name = "normals",
-         .type = Type::Choice,
-         .help = "deform them, keep their number, or add them where the file has none (default "
-                 "deform)",
-         .choices = {"deform", "keep", "add"},
+         .type = Type::Text,
+         .help = "deform (default), keep their number, or add[:DEGREES]: where an OBJ file has "
+                 "none, add them, split at edges sharper than that (default 40) or between its "
+                 "smoothing groups",
          .fallback = Value(std::string("deform"))},
         {.name = "output",
          .type = Type::Result,
