@@ -12,6 +12,7 @@
 #include "deform/model/normals.h"
 #include "deform/model/point_selection.h"
 #include "deform/scene/bind.h"
+#include "deform/scene/densify.h"
 #include "deform/scene/lock.h"
 #include "deform/scene/operations.h"
 #include "deform/scene/pose.h"
@@ -116,11 +117,8 @@ Influence influence_of(const Model& model, const Arguments& arguments) {
           point_weights(model, only, arguments.has("weights") ? arguments.text("weights") : "")};
 }
 
-/// The scene with the model bound to the i-th lattice of the arguments.
-Scene bound_by(const Scene& scene, const Arguments& arguments, std::size_t i,
-               const Progress& progress) {
-  const std::string& model = arguments.text("model");
-  const std::string lattice = arguments.texts("lattice")[i];
+/// How `deform` binds: what is not given is as the binding has it.
+BindOptions bind_options(const Arguments& arguments) {
   BindOptions options;
   if (arguments.has("binding")) {
     options = {"", ""};
@@ -131,6 +129,15 @@ Scene bound_by(const Scene& scene, const Arguments& arguments, std::size_t i,
   if (arguments.has("outside")) {
     options.outside = arguments.text("outside");
   }
+  return options;
+}
+
+/// The scene with the model bound to the i-th lattice of the arguments.
+Scene bound_by(const Scene& scene, const Arguments& arguments, std::size_t i,
+               const Progress& progress) {
+  const std::string& model = arguments.text("model");
+  const std::string lattice = arguments.texts("lattice")[i];
+  const BindOptions options = bind_options(arguments);
   if (arguments.has("binding")) {
     return with_saved_binding(scene, model, lattice, arguments.texts("binding")[i], options,
                               progress);
@@ -179,9 +186,38 @@ LatticeAction act(Scene& scene, const Arguments& arguments, std::size_t i,
   return action;
 }
 
-Scene deform(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+/// What `deform` binds: the model itself, or in its place a denser one.
+Scene made_dense(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  if (!arguments.has("densify")) {
+    return scene;
+  }
+  if (arguments.has("binding")) {
+    throw ParameterError(
+        "'densify' changes the model, and 'binding' is of the model as it is: bind what the "
+        "operation densify makes");
+  }
+  const std::string& model = arguments.text("model");
+  return with_dense_model(scene, model, arguments.texts("lattice"),
+                          parse_densify(arguments.text("densify")), bind_options(arguments), model,
+                          progress);
+}
+
+Scene densify(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  DensifyOptions options = parse_densify(arguments.text("method"));
+  if (arguments.has("length")) {
+    options.length = arguments.number("length");
+    if (!(options.length > 0)) {
+      throw ParameterError("'length' must be positive");
+    }
+  }
+  return with_dense_model(scene, arguments.text("model"), arguments.texts("lattice"), options, {},
+                          arguments.text("output"), progress);
+}
+
+Scene deform(const Scene& given, const Arguments& arguments, const Progress& progress) {
   require_one_for_each_lattice(arguments, "pose");
   require_one_for_each_lattice(arguments, "binding");
+  const Scene scene = made_dense(given, arguments, progress);
   const Model& model = model_in(scene, arguments.text("model"));
   const Influence influence = influence_of(model, arguments);
   const NormalChange change = normal_change(arguments.text("normals"));
@@ -305,11 +341,37 @@ std::vector<Operation> deform_operations() {
                  "none, add them, split at edges sharper than that (default 40) or between its "
                  "smoothing groups",
          .fallback = Value(std::string("deform"))},
+        {.name = "densify",
+         .type = Type::Text,
+         .help =
+             "make the model denser first: midpoint, loop or catmull-clark, until its edges are "
+             "as short as the finest spacing of control points under it, or METHOD:LENGTH, as "
+             "short as that"},
         {.name = "output",
          .type = Type::Result,
          .help = "the deformed model; {} stands for the pose's name without folder and extension",
          .is_required = true}},
        deform},
+      {"densify",
+       "Make a model denser, so that it can follow a lattice",
+       {model_parameter(),
+        {.name = "method",
+         .type = Type::Choice,
+         .help = "midpoint (default): only long edges are halved, the shape stays; loop: of "
+                 "triangles, or catmull-clark: of any polygons, smooth and everywhere",
+         .choices = {"midpoint", "loop", "catmull-clark"},
+         .fallback = Value(std::string("midpoint"))},
+        {.name = "length", .type = Type::Number, .help = "of the longest edge, model units"},
+        {.name = "lattice",
+         .type = Type::Lattice,
+         .help = "instead of a length: the finest spacing of control points under the model; may "
+                 "repeat",
+         .is_list = true},
+        {.name = "output",
+         .type = Type::Result,
+         .help = "the denser model (.obj)",
+         .is_required = true}},
+       densify},
   };
 }
 

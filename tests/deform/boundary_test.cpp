@@ -43,7 +43,7 @@ std::vector<glm::dvec3> bent(const Volume& volume, double angle) {
     const double turn = x.x * angle / 24;
     const double radius = x.y + 24 / angle;
     // A little along the axis, so that ends that meet cross and do not lie in one another.
-    return glm::dvec3(radius * std::cos(turn), radius * std::sin(turn), x.z + 0.02 * x.x);
+    return glm::dvec3(radius * std::sin(turn), radius * std::cos(turn), x.z + 0.02 * x.x);
   });
 }
 

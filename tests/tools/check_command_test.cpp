@@ -77,7 +77,7 @@ TEST_F(CheckCommand, shows_where_a_bar_passes_through_itself) {
   const auto bend = [](double angle) {
     return [angle](const glm::dvec3& x) {
       const double radius = x.y + 20 / angle;
-      return glm::dvec3(radius * std::cos(x.x * angle / 20), radius * std::sin(x.x * angle / 20),
+      return glm::dvec3(radius * std::sin(x.x * angle / 20), radius * std::cos(x.x * angle / 20),
                         x.z + 0.02 * x.x);
     };
   };
