@@ -112,7 +112,9 @@ class Round {
     double n = 0;
     for (std::size_t face = 0; face < mesh_.faces.n_rows(); ++face) {
       const auto n_cut = n_marked(face);
-      n += n_cut == 0 ? 1 : static_cast<double>(std::max<std::size_t>(n_cut + 1, 2));
+      const std::size_t size = mesh_.faces[face].size();
+      const bool is_fan = size > 3 && n_cut < size;
+      n += n_cut == 0 ? 1 : static_cast<double>(is_fan ? size + n_cut : n_cut + 1);
     }
     return n;
   }
@@ -146,38 +148,19 @@ class Round {
     return n;
   }
 
-  /// Marks edges with -2. A polygon with more than three corners is cut wholly, or not at all.
+  /// Marks edges that get a point with -2.
   void mark(double longest) {
     new_points_.assign(edges_.n_edges(), -1);
-    const bool is_everywhere = method_ != DensifyMethod::Midpoint;
-    bool is_any_long = false;
-    std::vector<std::int32_t> open;
     for (std::size_t edge = 0; edge < edges_.n_edges(); ++edge) {
       const auto [a, b] = edges_.ends(edge);
-      is_any_long |= glm::distance(point(a), point(b)) > longest;
       if (glm::distance(point(a), point(b)) > longest) {
-        open.push_back(static_cast<std::int32_t>(edge));
+        new_points_[edge] = -2;
+        ++n_marked_;
       }
     }
-    if (is_any_long && is_everywhere) {
+    if (n_marked_ > 0 && method_ != DensifyMethod::Midpoint) {
       new_points_.assign(edges_.n_edges(), -2);
       n_marked_ = edges_.n_edges();
-      return;
-    }
-    while (!open.empty()) {
-      const auto edge = static_cast<std::size_t>(open.back());
-      open.pop_back();
-      if (new_points_[edge] == -2) {
-        continue;
-      }
-      new_points_[edge] = -2;
-      ++n_marked_;
-      for (const std::int32_t face : edges_.faces_of(edge)) {
-        const auto of_face = edges_.of_face(static_cast<std::size_t>(face));
-        if (of_face.size() > 3) {
-          open.insert(open.end(), of_face.begin(), of_face.end());
-        }
-      }
     }
   }
 
@@ -268,8 +251,15 @@ class Round {
       split_triangle({loop[0], loop[1], loop[2]}, {middles[0], middles[1], middles[2]}, out);
     } else if (n_marked(face) == 0) {
       out.push_back(loop);
-    } else {
+    } else if (n_marked(face) == loop.size()) {
       split_polygon(loop, middles, out);
+    } else if (loop.size() == 4 && n_marked(face) == 2 &&
+               (middles[0].point >= 0) == (middles[2].point >= 0)) {
+      const std::size_t i = middles[0].point >= 0 ? 0 : 1;
+      out.push_back({loop[i], middles[i], middles[i + 2], loop[(i + 3) % 4]});
+      out.push_back({middles[i], loop[i + 1], loop[i + 2], middles[i + 2]});
+    } else {
+      split_fan(loop, middles, out);
     }
   }
 
@@ -321,6 +311,24 @@ class Round {
     const std::size_t n = loop.size();
     for (std::size_t i = 0; i < n; ++i) {
       out.push_back({loop[i], middles[i], centre, middles[(i + n - 1) % n]});
+    }
+  }
+
+  /// Triangles round the middle of a polygon of which not all edges are cut.
+  void split_fan(const std::vector<DenseCorner>& loop, const std::vector<DenseCorner>& middles,
+                 std::vector<std::vector<DenseCorner>>& out) {
+    std::vector<std::int32_t> points;
+    std::vector<DenseCorner> rim;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      points.push_back(loop[i].point);
+      rim.push_back(loop[i]);
+      if (middles[i].point >= 0) {
+        rim.push_back(middles[i]);
+      }
+    }
+    const DenseCorner centre = corner_between(add_point(points), loop);
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+      out.push_back({rim[i], rim[(i + 1) % rim.size()], centre});
     }
   }
 

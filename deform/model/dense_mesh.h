@@ -42,15 +42,15 @@ struct DenseMesh {
 /// Faces that a mesh may be made to have.
 inline constexpr double kMostDenseFaces = 50e6;
 
-/// The mesh with edges of at most `longest`. Midpoint halves only edges that are longer, and the
-/// other edges of polygons with more than three corners that have one; a concave one of these is
-/// cut into triangles first. The smooth methods refine everywhere, with borders as cubic splines
-/// that keep the points of single faces, and edges of more than two faces sharp; texture
-/// coordinates and normals are interpolated. The result holds the same bits for any number of
-/// threads. Throws ParameterError, with the numbers, if more than kMostDenseFaces faces would be
-/// needed; naming a face if Loop meets one that is no triangle, a smooth method one that has a
-/// point twice, or any a face of more than 2000 corners; and if `longest` is not positive. Tells
-/// `progress` "densify".
+/// The mesh with edges of at most `longest`. Midpoint halves only edges that are longer: a polygon
+/// whose edges are all cut becomes quadrilaterals, one with some cut becomes two quadrilaterals or
+/// triangles, and a concave one is cut into triangles first. The smooth methods refine everywhere,
+/// with borders as cubic splines that keep the points of single faces, and edges of more than two
+/// faces sharp; texture coordinates and normals are interpolated. The result holds the same bits
+/// for any number of threads. Throws ParameterError, with the numbers, if more than kMostDenseFaces
+/// faces would be needed; naming a face if Loop meets one that is no triangle, a smooth method one
+/// that has a point twice, or any a face of more than 2000 corners; and if `longest` is not
+/// positive. Tells `progress` "densify".
 [[nodiscard]] DenseMesh densified(DenseMesh mesh, DensifyMethod method, double longest,
                                   const Progress& progress = {});
 

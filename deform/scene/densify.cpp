@@ -17,6 +17,7 @@ namespace espalier {
 namespace {
 
 constexpr double kNoLength = 1e-9;  // of the lattice's diagonal
+constexpr int kMostRounds = 8;
 
 constexpr std::array<std::pair<std::string_view, DensifyMethod>, 3> kMethods = {
     {{"midpoint", DensifyMethod::Midpoint},
@@ -80,30 +81,49 @@ DensifyOptions parse_densify(const std::string& word) {
   return options;
 }
 
+namespace {
+
+/// Of all lattices, to which the scene's model is bound; the scene keeps that.
+double finest_spacing(Scene& scene, const std::string& model,
+                      const std::vector<std::string>& lattices, const BindOptions& options,
+                      const Progress& progress) {
+  if (lattices.empty()) {
+    throw ParameterError("densify: give a length, or a lattice that it is for");
+  }
+  double finest = std::numeric_limits<double>::infinity();
+  for (const std::string& lattice : lattices) {
+    scene = with_bound(scene, model, lattice, options, progress);
+    const BoundModel& bound = scene.bound.at({model, lattice});
+    finest =
+        std::min(finest, finest_spacing(lattice_in(scene, lattice), *bound.volume, *bound.binding));
+  }
+  return finest;
+}
+
+}  // namespace
+
 Scene with_dense_model(Scene scene, const std::string& model,
                        const std::vector<std::string>& lattices, const DensifyOptions& options,
                        const BindOptions& binding, const std::string& output,
                        const Progress& progress) {
-  double length = options.length;
-  if (length == 0) {
-    if (lattices.empty()) {
-      throw ParameterError("densify: give a length, or a lattice that it is for");
+  const Model source = model_in(scene, model);
+  Scene work = scene;
+  // More points may show finer control points under the model.
+  for (int round = 0; round < kMostRounds; ++round) {
+    const double length = options.length > 0
+                              ? options.length
+                              : finest_spacing(work, model, lattices, binding, progress);
+    const Model before = model_in(work, model);
+    Model dense = dense_model(before, options.method, length, source.path(), progress);
+    if (dense.bytes().data() == before.bytes().data()) {
+      break;
     }
-    length = std::numeric_limits<double>::infinity();
-    for (const std::string& lattice : lattices) {
-      scene = with_bound(scene, model, lattice, binding, progress);
-      const BoundModel& bound = scene.bound.at({model, lattice});
-      length = std::min(length,
-                        finest_spacing(lattice_in(scene, lattice), *bound.volume, *bound.binding));
-    }
+    work = with_model(std::move(work), model, std::move(dense));
   }
-  const Model& source = model_in(scene, model);
-  Model dense = dense_model(source, options.method, length, source.path(), progress);
-  const bool is_unchanged = dense.bytes().data() == source.bytes().data();
-  if (is_unchanged && output == model) {
-    return scene;  // what is bound stays bound
+  if (output == model) {
+    return work;
   }
-  return with_model(std::move(scene), output, std::move(dense));
+  return with_model(std::move(scene), output, model_in(work, model));
 }
 
 }  // namespace espalier

@@ -31,8 +31,9 @@ struct DensifyOptions {
 [[nodiscard]] DensifyOptions parse_densify(const std::string& word);
 
 /// The scene with a model made denser, under the name `output`, which may be its own; as it is if
-/// its edges are short already. lattices: those that give the length where the options do not; the
-/// model is bound to them. Throws ParameterError as dense_model() and finest_spacing().
+/// its edges are short already. lattices: those that give the length where the options do not,
+/// until the denser model shows none that is finer. Throws ParameterError as dense_model() and
+/// finest_spacing().
 [[nodiscard]] Scene with_dense_model(Scene scene, const std::string& model,
                                      const std::vector<std::string>& lattices,
                                      const DensifyOptions& options, const BindOptions& binding,
