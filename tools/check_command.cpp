@@ -166,6 +166,12 @@ std::string text_of(const std::string& path, const CheckReport& report) {
   return text;
 }
 
+/// Weights of the volume's points in the pose; empty: as at rest.
+std::vector<double> posed_weights(const Lattice& lattice, const Volume& volume) {
+  const auto* tensor = lattice.as<TensorLattice>();
+  return tensor == nullptr ? std::vector<double>() : point_weights(volume, tensor->pose_weights);
+}
+
 /// Whether no patch with a face on the boundary moves: then the boundary is as simple as at rest.
 bool is_boundary_at_rest(const Volume& volume, std::span<const glm::dvec3> pose) {
   const std::vector<glm::dvec3> moves = volume.displacements(pose);
@@ -249,9 +255,10 @@ CheckReport check_lattice(const Arguments& arguments, const Session& session) {
   } else {
     report.local = check.local(pose);
   }
-  report.is_boundary_at_rest = is_boundary_at_rest(*volume, pose);
+  const std::vector<double> weights = posed_weights(lattice, *volume);
+  report.is_boundary_at_rest = weights.empty() && is_boundary_at_rest(*volume, pose);
   if (!report.is_boundary_at_rest) {
-    report.boundary = check_boundary(*volume, pose, {}, {}, session.progress);
+    report.boundary = check_boundary(*volume, pose, weights, {}, session.progress);
   }
   if (arguments.has("drag")) {
     add_step(check, pose, arguments.texts("drag"), report);

@@ -22,7 +22,8 @@ namespace espalier {
 namespace {
 
 constexpr double kFinestPart = 0x1p-22;  // of a face's side
-constexpr int kMostTurns = 12;           // of a direction that is looked for
+constexpr int kMostTurns = 12;           // of a direction that slopes are seen from
+constexpr int kMostCornerTurns = 120;    // of a plane between the parts at a corner
 constexpr int kNewtonSteps = 20;
 constexpr double kInside = 1e-6;    // how far from a face's edge a crossing must be
 constexpr double kDistinct = 1e-6;  // how far apart at rest, of the volume's size
@@ -248,7 +249,7 @@ bool FacePairTester::are_divided_at(const Part& a, const CornerUse& of_a, const 
   for (const glm::dvec3& v : room_) {
     normal += unit(v);
   }
-  for (int turn = 0; turn < kMostTurns; ++turn) {
+  for (int turn = 0; turn < kMostCornerTurns; ++turn) {
     normal = unit(normal);
     const double slack = 2 * tolerance_ * sum_of_sizes(normal);
     double worst = std::numeric_limits<double>::infinity();
