@@ -136,6 +136,13 @@ void FaceNet::positions(std::vector<glm::dvec3>& out) const {
   }
 }
 
+double FaceNet::weight_spread() const {
+  const auto [least, most] =
+      std::minmax_element(points_.begin(), points_.end(),
+                          [](const glm::dvec4& a, const glm::dvec4& b) { return a.w < b.w; });
+  return most->w / least->w;
+}
+
 void FaceNet::append_slopes(int axis, std::vector<glm::dvec3>& out) const {
   if (is_rational_) {
     append_rational_slopes(axis, out);

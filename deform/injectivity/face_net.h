@@ -38,6 +38,9 @@ class FaceNet {
   /// The control points: the surface lies in their convex hull. `out` keeps its memory.
   void positions(std::vector<glm::dvec3>& out) const;
 
+  /// The largest weight by the smallest; 1 of a polynomial.
+  [[nodiscard]] double weight_spread() const;
+
   /// Vectors whose positive combinations hold the derivative along an axis everywhere: differences
   /// of control points; of a rational surface, whose derivative is Σ (B_k' B_i − B_i' B_k) C_j C_l
   /// w_ij w_kl (P_kl − P_ij) / w² over i < k, of pairs of rows. Each is off by at most twice what

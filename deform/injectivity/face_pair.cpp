@@ -377,7 +377,8 @@ bool FacePairTester::is_real_crossing(std::size_t a, const glm::dvec2& at_a, std
     std::vector<glm::dvec3> points;
     mesh_.pose[face].positions(points);
     const double degree = std::max(mesh_.pose[face].degree(0), mesh_.pose[face].degree(1));
-    curvature += 8 * degree * degree * 2 * box_of(points).radius();
+    const double spread = mesh_.pose[face].weight_spread();
+    curvature += 16 * degree * degree * box_of(points).radius() * std::pow(spread, 4);
   }
   const glm::dmat3 inverse = glm::inverse(square);
   const double beta = std::sqrt(std::max(inverse[0][0] + inverse[1][1] + inverse[2][2], 0.0));
