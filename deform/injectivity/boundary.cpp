@@ -24,7 +24,7 @@ namespace {
 /// What a coordinate of a control point may be off by, of the largest: stencils sum up hundreds of
 /// weights, and parts are cut by tens of steps.
 constexpr double kRounding = 1e-12;
-constexpr std::size_t kBatch = 512;  // faces between two looks at what was found
+constexpr std::size_t kBatch = 128;  // faces between two looks at what was found
 constexpr std::size_t kGrain = 16;
 
 double largest_coordinate(std::span<const glm::dvec3> pose, std::size_t n_controls) {
@@ -69,8 +69,11 @@ class BoundaryTester {
       progress.update("boundary", static_cast<double>(begin) / static_cast<double>(n));
       const std::size_t end = std::min(begin + kBatch, n);
       std::vector<FaceFindings> found(end - begin);
+      // Once it crosses itself somewhere, what else can hardly be told is of less interest.
+      const std::size_t most_boxes =
+          report.crossings.empty() ? options_.most_boxes : options_.most_boxes / 16;
       parallel_ranges(found.size(), kGrain, [&](std::size_t from, std::size_t to) {
-        FacePairTester tester(mesh_, tolerance_, options_.most_boxes);
+        FacePairTester tester(mesh_, tolerance_, most_boxes);
         for (std::size_t i = from; i < to; ++i) {
           test_face(begin + i, tester, found[i]);
         }

@@ -52,7 +52,8 @@ struct BoundaryReport {
 };
 
 struct BoundaryOptions {
-  std::size_t most_boxes = 4000;      ///< pairs of parts of two faces that may be looked at
+  std::size_t most_boxes = 4000;      ///< pairs of parts of two faces that may be looked at; once
+                                      ///< a crossing is known, a sixteenth
   std::size_t most_crossings = 100;   ///< after which it stops
   std::size_t most_undecided = 1000;  ///< the same
 };

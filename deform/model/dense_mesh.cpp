@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <unordered_map>
 #include <utility>
 
@@ -378,7 +380,7 @@ class Round {
       return is_corner ? p : 0.75 * p + 0.125 * sharp;
     }
     if (is_loop) {
-      const double c = 0.375 + 0.25 * std::cos(2 * std::acos(-1.0) / n);
+      const double c = 0.375 + 0.25 * std::cos(2 * std::numbers::pi / n);
       const double weight = (0.625 - c * c) / n;
       return (1 - n * weight) * p + weight * around;
     }

@@ -308,8 +308,7 @@ Model dense_model(const Model& model, DensifyMethod method, double longest, std:
                   const Progress& progress) {
   if (model.format() != ModelFormat::Obj) {
     throw ParameterError(
-        fmt::format("densify: {} is no OBJ file, only these can be made denser: convert it first",
-                    model.path()));
+        fmt::format("densify: {} is no OBJ file, only these can be made denser", model.path()));
   }
   if (model.faces().empty()) {
     throw ParameterError(fmt::format("densify: {} has no faces", model.path()));

@@ -1,5 +1,6 @@
 /// espalier check: verdicts, witnesses, exit status.
 
+#include "lattice/core/file.h"
 #include "tests/tools/command_line_fixture.h"
 
 namespace espalier::tools {
@@ -104,6 +105,16 @@ TEST_F(CheckCommand, leaves_a_boundary_that_only_touches_itself_undecided) {
                     : glm::dvec3(x.x + turn * 0.5, x.y, turn == 0 ? x.z : 1 + (x.x - 3) * 0.5);
   });
   EXPECT_NE(report({"flat.json"}, 1)["boundary"], "simple");
+}
+
+TEST_F(CheckCommand, of_the_patches_of_a_model_is_not_sure_of_those_that_fold_elsewhere) {
+  write_file("near.obj", "v 0.5 0.5 0.5\nv 1 0.5 0.5\nv 0.5 1 0.5\nf 1 2 3\n");
+  EXPECT_EQ(report({"box.json", "--model", "near.obj"}, 0)["injective"], "certified");
+  drag("box.json", "folded.json", kMiddle, {3.5, 0, 0});
+  const Json json = report({"folded.json", "--model", "near.obj"}, 3);
+  EXPECT_EQ(json["local"], "certified");
+  EXPECT_EQ(json["boundary"], "simple");
+  EXPECT_EQ(json["injective"], "undecided");
 }
 
 TEST_F(CheckCommand, refuses_drags_that_name_no_point_or_vector) {
