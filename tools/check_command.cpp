@@ -1,4 +1,5 @@
-/// espalier check: whether a lattice is valid and its pose folds space, and how far a drag may go.
+/// espalier check: whether a lattice is valid, whether its pose folds space or its boundary meets
+/// itself, and how far a drag may go.
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "deform/injectivity/boundary.h"
 #include "deform/injectivity/injectivity.h"
 #include "deform/model/model_file.h"
 #include "deform/scene/bind.h"
@@ -32,7 +34,9 @@ constexpr double kFarthest = 1e6;
 struct CheckReport {
   std::vector<std::string> defects;
   LocalInjectivity local;
+  Verdict elsewhere = Verdict::Certified;  // of patches that `local` does not look at
   bool is_boundary_at_rest = false;
+  BoundaryReport boundary;       // unless it is at rest
   std::optional<SafeStep> step;  // of the drag
   bool is_bounded = true;
 };
@@ -48,13 +52,49 @@ const char* name_of(Verdict verdict) {
   }
 }
 
+const char* name_of(BoundaryVerdict verdict) {
+  switch (verdict) {
+    case BoundaryVerdict::Simple:
+      return "simple";
+    case BoundaryVerdict::Intersecting:
+      return "intersecting";
+    default:
+      return "undecided";
+  }
+}
+
+/// Locally injective everywhere, and a boundary that does not meet itself.
 Verdict injective_of(const CheckReport& report) {
-  const bool is_open = report.local.verdict == Verdict::Certified && !report.is_boundary_at_rest;
-  return is_open ? Verdict::Undecided : report.local.verdict;
+  if (report.local.verdict == Verdict::Folded ||
+      report.boundary.verdict == BoundaryVerdict::Intersecting) {
+    return Verdict::Folded;
+  }
+  const bool is_certain =
+      report.local.verdict == Verdict::Certified && report.elsewhere == Verdict::Certified &&
+      report.boundary.verdict == BoundaryVerdict::Simple && report.boundary.is_unnested;
+  return is_certain ? Verdict::Certified : Verdict::Undecided;
 }
 
 Json json_of(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
+}
+
+Json json_of(const BoundaryPlace& place) {
+  return {{"patch", place.patch}, {"uvw", json_of(place.uvw)}, {"rest", json_of(place.rest)}};
+}
+
+void add_boundary(const BoundaryReport& report, Json& json) {
+  json["boundary_faces"] = report.n_faces;
+  json["crossings"] = Json::array();
+  for (const BoundaryCrossing& crossing : report.crossings) {
+    json["crossings"].push_back({{"point", json_of(crossing.point)},
+                                 {"places", {json_of(crossing.a), json_of(crossing.b)}}});
+  }
+  json["undecided_faces"] = Json::array();
+  for (const UndecidedFaces& pair : report.undecided) {
+    json["undecided_faces"].push_back({{{"patch", pair.patches[0]}, {"face", pair.faces[0]}},
+                                       {{"patch", pair.patches[1]}, {"face", pair.faces[1]}}});
+  }
 }
 
 Json json_of(const CheckReport& report) {
@@ -63,7 +103,7 @@ Json json_of(const CheckReport& report) {
     return json;
   }
   json["local"] = name_of(report.local.verdict);
-  json["boundary"] = report.is_boundary_at_rest ? "simple" : "undecided";
+  json["boundary"] = name_of(report.boundary.verdict);
   json["injective"] = name_of(injective_of(report));
   json["patches"] = report.local.n_patches;
   json["folds"] = Json::array();
@@ -77,6 +117,9 @@ Json json_of(const CheckReport& report) {
   for (const UndecidedBox& box : report.local.undecided) {
     json["undecided_boxes"].push_back(
         {{"patch", box.patch}, {"low", json_of(box.box.low)}, {"high", json_of(box.box.high)}});
+  }
+  if (!report.is_boundary_at_rest) {
+    add_boundary(report.boundary, json);
   }
   if (report.step) {
     json["largest_step"] = report.is_bounded ? Json(report.step->step) : Json();
@@ -93,10 +136,10 @@ std::string text_of(const std::string& path, const CheckReport& report) {
     }
     return text;
   }
-  std::string text = fmt::format(
-      "{}: valid\n  local: {} ({} patches)\n  boundary: {}\n  injective: {}\n", path,
-      name_of(report.local.verdict), report.local.n_patches,
-      report.is_boundary_at_rest ? "simple" : "undecided", name_of(injective_of(report)));
+  std::string text =
+      fmt::format("{}: valid\n  local: {} ({} patches)\n  boundary: {}\n  injective: {}\n", path,
+                  name_of(report.local.verdict), report.local.n_patches,
+                  name_of(report.boundary.verdict), name_of(injective_of(report)));
   for (const Fold& fold : report.local.folds) {
     text += fmt::format("  folded at rest point ({}, {}, {}): determinant {}\n", fold.rest.x,
                         fold.rest.y, fold.rest.z, fold.determinant);
@@ -104,11 +147,29 @@ std::string text_of(const std::string& path, const CheckReport& report) {
   if (!report.local.undecided.empty()) {
     text += fmt::format("  undecided in {} boxes\n", report.local.undecided.size());
   }
+  if (!report.boundary.crossings.empty()) {
+    const BoundaryCrossing& first = report.boundary.crossings.front();
+    text += fmt::format(
+        "  the boundary crosses itself at ({}, {}, {}), the place of rest points ({}, {}, {}) and "
+        "({}, {}, {})\n",
+        first.point.x, first.point.y, first.point.z, first.a.rest.x, first.a.rest.y, first.a.rest.z,
+        first.b.rest.x, first.b.rest.y, first.b.rest.z);
+  }
+  if (!report.boundary.undecided.empty()) {
+    text += fmt::format("  undecided in {} pairs of boundary faces\n",
+                        report.boundary.undecided.size());
+  }
   if (report.step) {
     text += report.is_bounded ? fmt::format("  largest step: {}\n", report.step->step)
                               : "  largest step: unbounded\n";
   }
   return text;
+}
+
+/// Weights of the volume's points in the pose; empty: as at rest.
+std::vector<double> posed_weights(const Lattice& lattice, const Volume& volume) {
+  const auto* tensor = lattice.as<TensorLattice>();
+  return tensor == nullptr ? std::vector<double>() : point_weights(volume, tensor->pose_weights);
 }
 
 /// Whether no patch with a face on the boundary moves: then the boundary is as simple as at rest.
@@ -194,10 +255,15 @@ CheckReport check_lattice(const Arguments& arguments, const Session& session) {
   if (arguments.has("model")) {
     const Model model = read_model(arguments.text("model"));
     report.local = check.local(pose, patches_of(*volume, model, session.progress));
+    report.elsewhere = check.local(pose).verdict;
   } else {
     report.local = check.local(pose);
   }
-  report.is_boundary_at_rest = is_boundary_at_rest(*volume, pose);
+  const std::vector<double> weights = posed_weights(lattice, *volume);
+  report.is_boundary_at_rest = weights.empty() && is_boundary_at_rest(*volume, pose);
+  if (!report.is_boundary_at_rest) {
+    report.boundary = check_boundary(*volume, pose, weights, {}, session.progress);
+  }
   if (arguments.has("drag")) {
     add_step(check, pose, arguments.texts("drag"), report);
   }

@@ -114,6 +114,8 @@ std::string run_pose(const Operation& operation, Arguments arguments, const Pose
                       Arguments({{"path", job.pose}, {"kind", std::string("pose")}}));
   posed = apply(operation, posed, arguments, session.progress);
   scene.bound = posed.bound;
+  const std::string& model = arguments.text("model");
+  scene.models.insert_or_assign(model, posed.models.at(model));  // it may have been made denser
   posed =
       apply(operation_named("save"), posed, Arguments({{"name", kResult}, {"path", job.output}}));
   return result_report(posed, kResult, job.output, session.is_json);

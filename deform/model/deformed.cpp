@@ -27,7 +27,7 @@ bool has_same_bits(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 void require_valid(const Model& model, std::span<const glm::dvec3> points,
-                   std::span<const glm::dvec3> pair_normals, NormalMode mode) {
+                   std::span<const glm::dvec3> pair_normals) {
   if (points.size() != model.points().size()) {
     throw ParameterError(fmt::format("deformed: {} points given, {} has {}", points.size(),
                                      model.path(), model.points().size()));
@@ -37,10 +37,6 @@ void require_valid(const Model& model, std::span<const glm::dvec3> points,
         fmt::format("deformed: {} normals given, {} has {} pairs of point and "
                     "normal",
                     pair_normals.size(), model.path(), model.pairs().size()));
-  }
-  if (mode == NormalMode::Add && model.pairs().empty() && model.format() != ModelFormat::Obj) {
-    throw ParameterError(fmt::format(
-        "normals: only a model in an OBJ file can be given normals, {} has none", model.path()));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -204,23 +200,15 @@ ReferenceStyle reference_style(std::string_view bytes, std::size_t end) {
   return {std::string_view("//").substr(n_slashes), bytes[begin] == '-'};
 }
 
-/// Writes smooth normals of the moved points before the first face, and names them in all faces.
-void add_normals(const Model& model, std::span<const glm::dvec3> points, Splices& splices) {
+/// Writes normals before the first face, and names them in all faces.
+void add_normals(const Model& model, const CornerNormals& added, Splices& splices) {
   const ModelLayout& layout = model.layout();
-  if (layout.faces.empty()) {
-    return;
+  for (const glm::dvec3& normal : added.normals) {
+    splices.insert(layout.first_face,
+                   normal_line(normal, layout.normal_encoding).append(layout.line_end));
   }
-  const std::vector<glm::dvec3> normals = smooth_normals(points, layout.faces);
   const std::size_t n_before = normals_before(layout, layout.first_face);
-  std::vector<std::size_t> normal_of_point(points.size(), 0);
-  std::size_t next = n_before;
-  for (std::size_t point = 0; point < points.size(); ++point) {
-    if (normals[point] != glm::dvec3(0)) {
-      normal_of_point[point] = next++;
-      splices.insert(layout.first_face,
-                     normal_line(normals[point], layout.normal_encoding).append(layout.line_end));
-    }
-  }
+  const std::size_t next = n_before + added.normals.size();
   std::vector<std::size_t> first_new(layout.normals.size() + 1);
   for (std::size_t normal = 0; normal < first_new.size(); ++normal) {
     first_new[normal] = normal + (normal >= n_before ? next - n_before : 0);
@@ -229,19 +217,25 @@ void add_normals(const Model& model, std::span<const glm::dvec3> points, Splices
   for (std::size_t corner = 0; corner < layout.faces.n_values(); ++corner) {
     const BytePlace place = layout.corners.places[corner];
     const ReferenceStyle style = reference_style(model.bytes(), place.begin());
-    const std::int64_t number = numbering.new_number(normal_of_point[layout.faces.values()[corner]],
-                                                     place.begin(), style.is_relative);
+    const std::int64_t number =
+        numbering.new_number(n_before + static_cast<std::size_t>(added.of_corners[corner]),
+                             place.begin(), style.is_relative);
     splices.replace(place, fmt::format("{}{}", style.missing_slashes, number));
   }
+}
+
+Model with_bytes(const Model& model, std::string bytes) {
+  return bytes == model.bytes() ? model
+                                : parse_model(model.format(), model.path(), std::move(bytes));
 }
 
 }  // namespace
 
 std::string deformed_bytes(const Model& model, std::span<const glm::dvec3> points,
                            std::span<const glm::dvec3> pair_normals, NormalMode mode) {
-  require_valid(model, points, pair_normals, mode);
+  require_valid(model, points, pair_normals);
   Splices splices;
-  const bool is_moved = replace_points(model, points, splices);
+  replace_points(model, points, splices);
   replace_facet_normals(model, points, splices);
   if (!pair_normals.empty()) {
     const bool can_split = !model.layout().normal_ends.empty() && mode != NormalMode::Keep;
@@ -250,17 +244,35 @@ std::string deformed_bytes(const Model& model, std::span<const glm::dvec3> point
         can_split ? split_normals(model, pair_normals) : average_normals(model, pair_normals),
         splices);
   }
-  if (mode == NormalMode::Add && is_moved && model.pairs().empty()) {
-    add_normals(model, points, splices);
+  return splices.apply(model.bytes());
+}
+
+std::string deformed_bytes_with_normals(const Model& model, std::span<const glm::dvec3> points,
+                                        const CornerNormals& added) {
+  if (model.format() != ModelFormat::Obj) {
+    throw ParameterError(fmt::format(
+        "normals: only a model in an OBJ file can be given normals, {} has none", model.path()));
+  }
+  if (!model.pairs().empty() || added.of_corners.size() != model.faces().n_values()) {
+    throw ParameterError(fmt::format("normals: {} given for {} corners, of which some have normals",
+                                     added.of_corners.size(), model.faces().n_values()));
+  }
+  require_valid(model, points, {});
+  Splices splices;
+  if (replace_points(model, points, splices)) {
+    add_normals(model, added, splices);
   }
   return splices.apply(model.bytes());
 }
 
 Model deformed(const Model& model, std::span<const glm::dvec3> points,
                std::span<const glm::dvec3> pair_normals, NormalMode mode) {
-  std::string bytes = deformed_bytes(model, points, pair_normals, mode);
-  return bytes == model.bytes() ? model
-                                : parse_model(model.format(), model.path(), std::move(bytes));
+  return with_bytes(model, deformed_bytes(model, points, pair_normals, mode));
+}
+
+Model deformed_with_normals(const Model& model, std::span<const glm::dvec3> points,
+                            const CornerNormals& added) {
+  return with_bytes(model, deformed_bytes_with_normals(model, points, added));
 }
 
 }  // namespace espalier

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "deform/model/model.h"
+#include "deform/model/normals.h"
 
 namespace espalier {
 
@@ -15,7 +16,6 @@ namespace espalier {
 enum class NormalMode : std::uint8_t {
   Deform,  ///< each turns; one shared by points where it turns differently becomes several
   Keep,    ///< each turns to the mean of what its points ask for; none is added
-  Add,     ///< as Deform; a model without any gets smooth ones if a point moved
 };
 
 /// The bytes of `model` with its points at `points` and its normals turned to `pair_normals`.
@@ -33,14 +33,23 @@ enum class NormalMode : std::uint8_t {
 ///
 /// If nothing moved the bytes are the model's own.
 /// Throws ParameterError for a wrong number of points or normals, for a point that is not finite or
-/// beyond kLargestCoordinate, and if normals are to be added to a file that is no OBJ. O(bytes).
+/// beyond kLargestCoordinate. O(bytes).
 [[nodiscard]] std::string deformed_bytes(const Model& model, std::span<const glm::dvec3> points,
                                          std::span<const glm::dvec3> pair_normals,
                                          NormalMode mode = NormalMode::Deform);
+
+/// The same of an OBJ file whose corners have no normals, with these added if a point moved: before
+/// the first face, and named in all. Throws ParameterError too for a file that is no OBJ, or has
+/// normals, or for another number of corners.
+[[nodiscard]] std::string deformed_bytes_with_normals(const Model& model,
+                                                      std::span<const glm::dvec3> points,
+                                                      const CornerNormals& added);
 
 /// The model that a file of deformed_bytes() holds: its points are rounded as written.
 [[nodiscard]] Model deformed(const Model& model, std::span<const glm::dvec3> points,
                              std::span<const glm::dvec3> pair_normals,
                              NormalMode mode = NormalMode::Deform);
+[[nodiscard]] Model deformed_with_normals(const Model& model, std::span<const glm::dvec3> points,
+                                          const CornerNormals& added);
 
 }  // namespace espalier

@@ -1,5 +1,3 @@
-/// [TW98] G. Thürmer, C. Wüthrich, "Computing vertex normals from polygonal facets", 1998.
-
 #include "deform/model/normals.h"
 
 #include <algorithm>
@@ -104,25 +102,6 @@ CompressedRows<std::int32_t> pairs_of_normals(const Model& model) {
   return rows_by_key(normal_of_pair, model.normals().size());
 }
 
-/// Twice the area of a polygon along its mean normal, by Newell's sums about its first point.
-glm::dvec3 area_vector(std::span<const glm::dvec3> points, std::span<const std::int32_t> face) {
-  glm::dvec3 area(0);
-  const glm::dvec3 origin = points[face[0]];
-  for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-    area += glm::cross(points[face[i]] - origin, points[face[i + 1]] - origin);
-  }
-  return area;
-}
-
-/// Between the edges that leave corner i, 0 if one has no length.
-double corner_angle(std::span<const glm::dvec3> points, std::span<const std::int32_t> face,
-                    std::size_t i) {
-  const std::size_t n = face.size();
-  const glm::dvec3 a = unit_or_zero(points[face[(i + 1) % n]] - points[face[i]]);
-  const glm::dvec3 b = unit_or_zero(points[face[(i + n - 1) % n]] - points[face[i]]);
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
 }  // namespace
 
 glm::dvec3 unit_or_zero(glm::dvec3 v) {
@@ -182,27 +161,6 @@ NormalPlan average_normals(const Model& model, std::span<const glm::dvec3> pair_
     plan.values = CompressedRows<glm::dvec3>::uniform(1, std::move(values));
   }
   return plan;
-}
-
-std::vector<glm::dvec3> smooth_normals(std::span<const glm::dvec3> points,
-                                       const CompressedRows<std::int32_t>& faces) {
-  std::vector<glm::dvec3> normals(points.size(), glm::dvec3(0));
-  for (std::size_t f = 0; f < faces.n_rows(); ++f) {
-    const std::span<const std::int32_t> face = faces[f];
-    const glm::dvec3 direction = unit_or_zero(area_vector(points, face));
-    for (std::size_t i = 0; i < face.size(); ++i) {
-      normals[face[i]] += corner_angle(points, face, i) * direction;
-    }
-  }
-  for (glm::dvec3& normal : normals) {
-    normal = unit_or_zero(normal);
-  }
-  for (const std::int32_t point : faces.values()) {
-    if (normals[point] == glm::dvec3(0)) {
-      normals[point] = glm::dvec3(0, 0, 1);
-    }
-  }
-  return normals;
 }
 
 }  // namespace espalier

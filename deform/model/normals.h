@@ -38,9 +38,29 @@ struct NormalPlan {
 [[nodiscard]] NormalPlan average_normals(const Model& model,
                                          std::span<const glm::dvec3> pair_normals);
 
-/// Unit normals at points: the sum of the normals of the faces there, weighted by the angle each
-/// has there [TW98]. #P × 3; (0, 0, 1) where the faces leave it open, zero at points of no face.
-[[nodiscard]] std::vector<glm::dvec3> smooth_normals(std::span<const glm::dvec3> points,
-                                                     const CompressedRows<std::int32_t>& faces);
+/// Normals for a model that has none: each of one point, used at some of its corners.
+struct CornerNormals {
+  std::vector<std::int32_t> points;      ///< #normals, ascending
+  std::vector<glm::dvec3> normals;       ///< #normals × 3, unit
+  std::vector<std::int32_t> of_corners;  ///< #corners: the normal at each
+};
+
+/// Where an edge is sharp.
+struct SharpEdges {
+  double angle = 40;  ///< degrees between the normals of its faces; larger ones are sharp
+  /// #faces, or empty: then instead, where two faces are not of one group; 0 is none.
+  std::vector<std::int64_t> smoothing_groups = {};
+};
+
+/// At each point one normal for the corners that hang together over edges that are not sharp: the
+/// sum of their faces' normals, weighted by the angles at the corners [TW98]; (0, 0, 1) where the
+/// faces leave it open. O(#corners log #corners).
+[[nodiscard]] CornerNormals corner_normals(std::span<const glm::dvec3> points,
+                                           const CompressedRows<std::int32_t>& faces,
+                                           const SharpEdges& sharp = {});
+
+/// #faces: the smoothing group (`s`) of each face of an OBJ file, 0 for none or off; empty if the
+/// model's file has no smoothing groups.
+[[nodiscard]] std::vector<std::int64_t> smoothing_groups(const Model& model);
 
 }  // namespace espalier

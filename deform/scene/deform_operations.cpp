@@ -9,12 +9,15 @@
 #include "deform/evaluate/combine.h"
 #include "deform/evaluate/displace.h"
 #include "deform/model/deformed.h"
+#include "deform/model/normals.h"
 #include "deform/model/point_selection.h"
 #include "deform/scene/bind.h"
+#include "deform/scene/densify.h"
 #include "deform/scene/lock.h"
 #include "deform/scene/operations.h"
 #include "deform/scene/pose.h"
 #include "lattice/core/error.h"
+#include "lattice/core/text_scanner.h"
 
 namespace espalier {
 namespace {
@@ -36,11 +39,49 @@ std::vector<glm::dvec3> turned_normals(const Model& model,
   return normals;
 }
 
-NormalMode normal_mode(const std::string& word) {
-  if (word == "keep") {
-    return NormalMode::Keep;
+/// What `normals` asks for.
+struct NormalChange {
+  NormalMode mode = NormalMode::Deform;
+  std::optional<SharpEdges> added;  // to a model without any
+};
+
+/// deform, keep, add or add:DEGREES.
+NormalChange normal_change(const std::string& word) {
+  if (word == "deform" || word == "keep") {
+    return {word == "keep" ? NormalMode::Keep : NormalMode::Deform, std::nullopt};
   }
-  return word == "add" ? NormalMode::Add : NormalMode::Deform;
+  SharpEdges sharp;
+  const bool is_angle = word.starts_with("add:") && parse_number(word.substr(4), sharp.angle);
+  if ((word != "add" && !is_angle) || !(sharp.angle >= 0 && sharp.angle <= 180)) {
+    throw ParameterError("'normals' is '" + word +
+                         "', must be deform, keep, add or add:DEGREES, from 0 to 180");
+  }
+  return {NormalMode::Deform, sharp};
+}
+
+/// The model moved, with normals that it does not have in its file: those at rest, turned.
+Model with_added_normals(const Model& model, std::span<const glm::dvec3> points, SharpEdges sharp,
+                         const std::vector<glm::dmat3>& gradients) {
+  sharp.smoothing_groups = smoothing_groups(model);
+  CornerNormals added = corner_normals(model.points(), model.faces(), sharp);
+  for (std::size_t i = 0; i < added.normals.size(); ++i) {
+    const glm::dvec3 turned =
+        turned_normal(gradients[static_cast<std::size_t>(added.points[i])], added.normals[i]);
+    added.normals[i] = turned == glm::dvec3(0) ? added.normals[i] : turned;
+  }
+  return deformed_with_normals(model, points, added);
+}
+
+/// The model moved by lattices.
+Model moved(const Model& model, std::span<const LatticeMotion> motions, const Influence& influence,
+            const NormalChange& change) {
+  const std::vector<glm::dvec3> points = combined_points(model.points(), motions, influence);
+  const auto gradients = [&] { return combined_gradients(points.size(), motions, influence); };
+  if (!model.pairs().empty()) {
+    return deformed(model, points, turned_normals(model, gradients()), change.mode);
+  }
+  return change.added ? with_added_normals(model, points, *change.added, gradients())
+                      : deformed(model, points, {}, change.mode);
 }
 
 /// The control points that the i-th lattice of the arguments takes.
@@ -82,11 +123,8 @@ Influence influence_of(const Model& model, const Arguments& arguments) {
           point_weights(model, only, arguments.has("weights") ? arguments.text("weights") : "")};
 }
 
-/// The scene with the model bound to the i-th lattice of the arguments.
-Scene bound_by(const Scene& scene, const Arguments& arguments, std::size_t i,
-               const Progress& progress) {
-  const std::string& model = arguments.text("model");
-  const std::string lattice = arguments.texts("lattice")[i];
+/// How `deform` binds: what is not given is as the binding has it.
+BindOptions bind_options(const Arguments& arguments) {
   BindOptions options;
   if (arguments.has("binding")) {
     options = {"", ""};
@@ -97,6 +135,15 @@ Scene bound_by(const Scene& scene, const Arguments& arguments, std::size_t i,
   if (arguments.has("outside")) {
     options.outside = arguments.text("outside");
   }
+  return options;
+}
+
+/// The scene with the model bound to the i-th lattice of the arguments.
+Scene bound_by(const Scene& scene, const Arguments& arguments, std::size_t i,
+               const Progress& progress) {
+  const std::string& model = arguments.text("model");
+  const std::string lattice = arguments.texts("lattice")[i];
+  const BindOptions options = bind_options(arguments);
   if (arguments.has("binding")) {
     return with_saved_binding(scene, model, lattice, arguments.texts("binding")[i], options,
                               progress);
@@ -147,11 +194,41 @@ LatticeAction act(Scene& scene, const Arguments& arguments, std::size_t i,
   return action;
 }
 
-Scene deform(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+/// What `deform` binds: the model itself, or in its place a denser one.
+Scene made_dense(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  if (!arguments.has("densify")) {
+    return scene;
+  }
+  if (arguments.has("binding")) {
+    throw ParameterError(
+        "'densify' changes the model, and 'binding' is of the model as it is: bind what the "
+        "operation densify makes");
+  }
+  const std::string& model = arguments.text("model");
+  return with_dense_model(scene, model, arguments.texts("lattice"),
+                          parse_densify(arguments.text("densify")), bind_options(arguments), model,
+                          progress);
+}
+
+Scene densify(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+  DensifyOptions options = parse_densify(arguments.text("method"));
+  if (arguments.has("length")) {
+    options.length = arguments.number("length");
+    if (!(options.length > 0)) {
+      throw ParameterError("'length' must be positive");
+    }
+  }
+  return with_dense_model(scene, arguments.text("model"), arguments.texts("lattice"), options, {},
+                          arguments.text("output"), progress);
+}
+
+Scene deform(const Scene& given, const Arguments& arguments, const Progress& progress) {
   require_one_for_each_lattice(arguments, "pose");
   require_one_for_each_lattice(arguments, "binding");
+  const Scene scene = made_dense(given, arguments, progress);
   const Model& model = model_in(scene, arguments.text("model"));
   const Influence influence = influence_of(model, arguments);
+  const NormalChange change = normal_change(arguments.text("normals"));
   Scene result = scene;
   std::vector<LatticeMotion> motions;
   std::set<std::int32_t> torn;
@@ -160,14 +237,8 @@ Scene deform(const Scene& scene, const Arguments& arguments, const Progress& pro
     motions.push_back(std::move(action.motion));
     torn.insert(action.torn_faces.begin(), action.torn_faces.end());
   }
-  const std::vector<glm::dvec3> points = combined_points(model.points(), motions, influence);
-  std::vector<glm::dvec3> normals;
-  if (!model.pairs().empty()) {
-    normals = turned_normals(model, combined_gradients(points.size(), motions, influence));
-  }
-  Model moved = deformed(model, points, normals, normal_mode(arguments.text("normals")));
   const std::string& output = arguments.text("output");
-  result = with_model(std::move(result), output, std::move(moved));
+  result = with_model(std::move(result), output, moved(model, motions, influence, change));
   if (!torn.empty()) {
     result.torn_faces[output] = torn.size();
   }
@@ -274,16 +345,42 @@ std::vector<Operation> deform_operations() {
                  "lattices' order, or stands for all (default none)",
          .is_list = true},
         {.name = "normals",
-         .type = Type::Choice,
-         .help = "deform them, keep their number, or add them where the file has none (default "
-                 "deform)",
-         .choices = {"deform", "keep", "add"},
+         .type = Type::Text,
+         .help = "deform (default), keep their number, or add[:DEGREES]: where an OBJ file has "
+                 "none, add them, split at edges sharper than that (default 40) or between its "
+                 "smoothing groups",
          .fallback = Value(std::string("deform"))},
+        {.name = "densify",
+         .type = Type::Text,
+         .help =
+             "make the model denser first: midpoint, loop or catmull-clark, until its edges are "
+             "as short as the finest spacing of control points under it, or METHOD:LENGTH, as "
+             "short as that"},
         {.name = "output",
          .type = Type::Result,
          .help = "the deformed model; {} stands for the pose's name without folder and extension",
          .is_required = true}},
        deform},
+      {"densify",
+       "Make a model denser, so that it can follow a lattice",
+       {model_parameter(),
+        {.name = "method",
+         .type = Type::Choice,
+         .help = "midpoint (default): only long edges are halved, the shape stays; loop: of "
+                 "triangles, or catmull-clark: of any polygons, smooth and everywhere",
+         .choices = {"midpoint", "loop", "catmull-clark"},
+         .fallback = Value(std::string("midpoint"))},
+        {.name = "length", .type = Type::Number, .help = "of the longest edge, model units"},
+        {.name = "lattice",
+         .type = Type::Lattice,
+         .help = "instead of a length: the finest spacing of control points under the model; may "
+                 "repeat",
+         .is_list = true},
+        {.name = "output",
+         .type = Type::Result,
+         .help = "the denser model (.obj)",
+         .is_required = true}},
+       densify},
   };
 }
 

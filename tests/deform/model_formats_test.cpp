@@ -217,7 +217,8 @@ TEST(ModelFormats, only_obj_files_can_be_given_normals) {
   for (const Sample& sample : {samples()[0], samples()[3], samples()[5]}) {
     const Model model = parse(sample);
     try {
-      (void)deformed_bytes(model, model.points(), {}, NormalMode::Add);
+      (void)deformed_bytes_with_normals(model, model.points(),
+                                        corner_normals(model.points(), model.faces()));
       FAIL() << sample.what;
     } catch (const ParameterError& error) {
       EXPECT_STREQ(error.what(),

@@ -24,22 +24,82 @@ TEST(UnitOrZero, has_length_one_at_every_scale) {
   EXPECT_EQ(unit_or_zero({INFINITY, 1, 0}), glm::dvec3(0));
 }
 
-TEST(SmoothNormals, do_not_depend_on_how_a_cube_is_cut_into_polygons) {
-  const std::vector<glm::dvec3> points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                          {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-  const CompressedRows<std::int32_t> faces = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6},
-                                              {1, 6, 5},    {2, 3, 7, 6}, {3, 0, 4, 7}};
-  const std::vector<glm::dvec3> normals = smooth_normals(points, faces);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    expect_near(normals[i], unit_or_zero(points[i] - 0.5));
+const std::vector<glm::dvec3> kCube = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                       {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+const CompressedRows<std::int32_t> kCubeFaces = {
+    {0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+
+TEST(CornerNormals, do_not_depend_on_how_a_smooth_cube_is_cut_into_polygons) {
+  const CornerNormals found = corner_normals(kCube, kCubeFaces, {.angle = 90});
+  ASSERT_EQ(found.points, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
+  for (std::size_t i = 0; i < kCube.size(); ++i) {
+    expect_near(found.normals[i], unit_or_zero(kCube[i] - 0.5));
+  }
+  for (std::size_t corner = 0; corner < kCubeFaces.n_values(); ++corner) {
+    EXPECT_EQ(found.of_corners[corner], kCubeFaces.values()[corner]);
   }
 }
 
-TEST(SmoothNormals, have_a_value_at_degenerate_faces_and_none_at_loose_points) {
+TEST(CornerNormals, are_those_of_the_faces_at_sharp_edges) {
+  for (const double scale : {1.0, 1e8, 1e-8}) {
+    std::vector<glm::dvec3> points = kCube;
+    for (glm::dvec3& point : points) {
+      point *= scale;
+    }
+    const CornerNormals found = corner_normals(points, kCubeFaces, {.angle = 89.9});
+    EXPECT_EQ(found.normals.size(), 24u);  // two triangles of one side share theirs
+    for (std::size_t face = 0; face < kCubeFaces.n_rows(); ++face) {
+      glm::dvec3 middle(0);
+      for (std::size_t i = 0; i < 3; ++i) {
+        middle += kCube[static_cast<std::size_t>(kCubeFaces[face][i])] / 3.0;
+      }
+      for (std::size_t i = 0; i < kCubeFaces[face].size(); ++i) {
+        const auto normal = static_cast<std::size_t>(found.of_corners[kCubeFaces.offset(face) + i]);
+        const glm::dvec3& n = found.normals[normal];
+        EXPECT_NEAR(std::abs(n.x) + std::abs(n.y) + std::abs(n.z), 1, 1e-15);
+        EXPECT_GT(glm::dot(n, middle - 0.5), 0.49);
+        EXPECT_EQ(found.points[normal], kCubeFaces[face][i]);
+      }
+    }
+  }
+}
+
+TEST(CornerNormals, follow_smoothing_groups_and_not_angles_where_a_file_has_them) {
+  const std::string cube = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n";
+  const Model model = parse_obj("m.obj", cube +
+                                             "s 1\nf 1 4 3 2\nf 1 2 5\n"  // a right angle
+                                             "s 2\nf 1 5 4\ns off\nf 2 3 5\ns 0\nf 3 4 5\n");
+  const std::vector<std::int64_t> groups = smoothing_groups(model);
+  EXPECT_EQ(groups, (std::vector<std::int64_t>{1, 1, 2, 0, 0}));
+  const CornerNormals found =
+      corner_normals(model.points(), model.faces(), {.angle = 1, .smoothing_groups = groups});
+  EXPECT_EQ(found.of_corners[0], found.of_corners[4]);  // at point 1
+  EXPECT_NE(found.of_corners[0], found.of_corners[7]);
+  expect_near(found.normals[static_cast<std::size_t>(found.of_corners[0])],
+              unit_or_zero({0, -1, -1}));
+  EXPECT_NE(found.of_corners[12], found.of_corners[15]);  // at point 5, both off
+  EXPECT_TRUE(smoothing_groups(parse_obj("m.obj", cube + "f 1 2 3\n")).empty());
+}
+
+TEST(CornerNormals, have_a_value_at_degenerate_faces_and_none_at_loose_points) {
   const std::vector<glm::dvec3> points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}};
-  const std::vector<glm::dvec3> normals = smooth_normals(points, {{0, 1, 2}});
-  EXPECT_EQ(normals[0], glm::dvec3(0, 0, 1));
-  EXPECT_EQ(normals[3], glm::dvec3(0));
+  const CornerNormals found = corner_normals(points, {{0, 1, 2}});
+  EXPECT_EQ(found.points, (std::vector<std::int32_t>{0, 1, 2}));
+  EXPECT_EQ(found.normals[0], glm::dvec3(0, 0, 1));
+}
+
+TEST(CornerNormals, take_no_long_time_at_a_point_of_very_many_faces) {
+  constexpr int kCount = 200000;
+  std::vector<glm::dvec3> points = {{0, 0, 1}};
+  CompressedRows<std::int32_t> faces;
+  for (int i = 0; i < kCount; ++i) {
+    const double angle = 6.283185307179586 * i / kCount;
+    points.emplace_back(std::cos(angle), std::sin(angle), 0);
+    faces.push_back(std::vector<std::int32_t>{0, i + 1, (i + 1) % kCount + 1});
+  }
+  const CornerNormals found = corner_normals(points, faces);
+  EXPECT_EQ(found.normals.size(), points.size());
+  EXPECT_LT(glm::length(found.normals[0] - glm::dvec3(0, 0, 1)), 1e-9);
 }
 
 /// A model in which n points share one normal.

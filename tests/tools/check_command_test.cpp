@@ -1,5 +1,6 @@
 /// espalier check: verdicts, witnesses, exit status.
 
+#include "lattice/core/file.h"
 #include "tests/tools/command_line_fixture.h"
 
 namespace espalier::tools {
@@ -61,11 +62,58 @@ TEST_F(CheckCommand, tells_the_largest_step_of_a_drag) {
   EXPECT_TRUE(report(all, 0)["largest_step"].is_null());  // a translation
 }
 
-TEST_F(CheckCommand, leaves_a_moved_boundary_undecided) {
+TEST_F(CheckCommand, certifies_a_moved_boundary) {
   drag("box.json", "moved.json", 0, {-0.5, 0, 0});
-  const Json json = report({"moved.json"}, 3);
+  const Json json = report({"moved.json"}, 0);
   EXPECT_EQ(json["local"], "certified");
-  EXPECT_EQ(json["boundary"], "undecided");
+  EXPECT_EQ(json["boundary"], "simple");
+  EXPECT_EQ(json["injective"], "certified");
+  EXPECT_EQ(json["boundary_faces"], 6 * 64);
+  EXPECT_TRUE(json["crossings"].empty());
+}
+
+TEST_F(CheckCommand, shows_where_a_bar_passes_through_itself) {
+  done({"new", "box", "--cells", "20", "1", "1", "--min", "0", "0", "0", "--max", "20", "1", "1",
+        "-o", "bar.json"});
+  const auto bend = [](double angle) {
+    return [angle](const glm::dvec3& x) {
+      const double radius = x.y + 20 / angle;
+      return glm::dvec3(radius * std::sin(x.x * angle / 20), radius * std::cos(x.x * angle / 20),
+                        x.z + 0.02 * x.x);
+    };
+  };
+  pose_by("bar.json", "open.json", bend(5));
+  EXPECT_EQ(report({"open.json"}, 0)["injective"], "certified");
+  pose_by("bar.json", "closed.json", bend(6.6));
+  const Json json = report({"closed.json"}, 1);
+  EXPECT_EQ(json["local"], "certified");
+  EXPECT_EQ(json["boundary"], "intersecting");
+  EXPECT_EQ(json["injective"], "folded");
+  ASSERT_FALSE(json["crossings"].empty());
+  const Json& places = json["crossings"][0]["places"];
+  EXPECT_GT(glm::distance(point_of(places[0]["rest"]), point_of(places[1]["rest"])), 10);
+  EXPECT_NE(run({"check", "closed.json"}).out.find("the boundary crosses itself at ("),
+            std::string::npos);
+}
+
+TEST_F(CheckCommand, leaves_a_boundary_that_only_touches_itself_undecided) {
+  done({"new", "box", "--cells", "6", "1", "1", "--min", "0", "0", "0", "--max", "6", "1", "1",
+        "-o", "bar.json"});
+  pose_by("bar.json", "flat.json", [](const glm::dvec3& x) {  // the ends meet face to face
+    const double turn = std::min(x.x, 6 - x.x) < 2 ? 0 : 1;
+    return x.x >= 4 ? glm::dvec3(6 - x.x, x.y, 2 - x.z)
+                    : glm::dvec3(x.x + turn * 0.5, x.y, turn == 0 ? x.z : 1 + (x.x - 3) * 0.5);
+  });
+  EXPECT_NE(report({"flat.json"}, 1)["boundary"], "simple");
+}
+
+TEST_F(CheckCommand, of_the_patches_of_a_model_is_not_sure_of_those_that_fold_elsewhere) {
+  write_file("near.obj", "v 0.5 0.5 0.5\nv 1 0.5 0.5\nv 0.5 1 0.5\nf 1 2 3\n");
+  EXPECT_EQ(report({"box.json", "--model", "near.obj"}, 0)["injective"], "certified");
+  drag("box.json", "folded.json", kMiddle, {3.5, 0, 0});
+  const Json json = report({"folded.json", "--model", "near.obj"}, 3);
+  EXPECT_EQ(json["local"], "certified");
+  EXPECT_EQ(json["boundary"], "simple");
   EXPECT_EQ(json["injective"], "undecided");
 }
 

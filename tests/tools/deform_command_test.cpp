@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "deform/model/model_file.h"
 #include "lattice/core/file.h"
 #include "tests/deform/odd_obj_files.h"
 #include "tests/tools/command_line_fixture.h"
@@ -136,7 +137,36 @@ TEST_F(DeformCommand, a_file_without_normals_gets_them_only_when_asked) {
   done({"deform", "m.obj", "--lattice", "turned.json", "-o", "out.obj"});
   EXPECT_EQ(read_file("out.obj").find("vn"), std::string::npos);
   done({"deform", "m.obj", "--lattice", "turned.json", "--normals", "add", "-o", "out.obj"});
+  EXPECT_EQ(Json::parse(done({"info", "out.obj", "--json"}))["normals"], 24);
+  done({"deform", "m.obj", "--lattice", "turned.json", "--normals", "add:90", "-o", "out.obj"});
   EXPECT_EQ(Json::parse(done({"info", "out.obj", "--json"}))["normals"], 8);
+  for (const char* word : {"add:", "add:200", "add:-1", "add:nan", "more"}) {
+    EXPECT_EQ(
+        refusal({"deform", "m.obj", "--lattice", "turned.json", "--normals", word, "-o", "out.obj"},
+                2),
+        "--normals is '" + std::string(word) +
+            "', must be deform, keep, add or add:DEGREES, from 0 to 180");
+  }
+}
+
+/// Under x' = x + y the side of a prism that stands at 45 degrees turns as cof J turns its normal
+/// at rest, also where the moved faces are no longer sharp.
+TEST_F(DeformCommand, added_normals_are_those_at_rest_turned) {
+  write_file("m.obj",
+             "v 0 0 0\nv 0.5 0 0\nv 0.5 0 0.5\nv 0 0 0.5\nv 0 0.5 0\nv 0 0.5 0.5\n"
+             "f 1 2 3 4\nf 1 4 6 5\n");
+  pose_by("rest.json", "sheared.json",
+          [](const glm::dvec3& x) { return glm::dvec3(x.x + x.y, x.y, x.z); });
+  done({"deform", "m.obj", "--lattice", "sheared.json", "--normals", "add", "-o", "out.obj"});
+  const Model model = read_model("out.obj");
+  ASSERT_EQ(model.normals().size(), 8u);
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    const PointNormal& pair = model.pairs()[static_cast<std::size_t>(model.corner_pairs()[corner])];
+    const glm::dvec3 expected =
+        corner < 4 ? glm::dvec3(0, -1, 0) : glm::dvec3(-std::sqrt(0.5), std::sqrt(0.5), 0);
+    EXPECT_LT(glm::distance(model.normals()[static_cast<std::size_t>(pair.normal)], expected), 1e-6)
+        << corner;
+  }
 }
 
 TEST_F(DeformCommand, the_result_may_replace_the_model_or_sit_behind_a_link) {
