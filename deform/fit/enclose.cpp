@@ -21,18 +21,43 @@ constexpr int kRelaxSteps = 4;         // each half the way to the mean of the n
 constexpr double kFarthest = 0.45;     // that relaxing may move a vertex, in steps
 constexpr double kLeastVolume = 1e-3;  // determinant of a refined cell, of its volume in the grid
 
+std::size_t n_sharp_edges(const CellComplex& complex, VertexId vertex, const Sharpness& sharpness) {
+  const auto edges = complex.edges(vertex);
+  return static_cast<std::size_t>(std::count_if(
+      edges.begin(), edges.end(), [&](EdgeId edge) { return sharpness.edges[edge] > 0; }));
+}
+
+/// Makes the boundary edges at a vertex sharp; those that were not.
+std::vector<EdgeId> sharpen(const CellComplex& complex, VertexId vertex, Sharpness& sharpness) {
+  std::vector<EdgeId> changed;
+  for (const EdgeId edge : complex.edges(vertex)) {
+    if (complex.is_boundary(edge) && sharpness.edges[edge] == 0) {
+      sharpness.edges[edge] = kInfiniteSharpness;
+      changed.push_back(edge);
+    }
+  }
+  return changed;
+}
+
 SubdivisionLattice lattice_of(const GridCells& cells) {
   SubdivisionLattice lattice;
   lattice.complex = std::make_shared<const CellComplex>(cells.mesh.cells);
   lattice.rest = cells.mesh.points;
   lattice.sharpness = automatic_sharpness(*lattice.complex);
-  for (std::size_t v = 0; v < cells.is_sharp.size(); ++v) {
-    if (cells.is_sharp[v] == 0) {
-      continue;
+  std::vector<VertexId> waiting;
+  for (const VertexId vertex : lattice.complex->vertices()) {
+    if (cells.is_sharp[vertex.index()] != 0) {
+      waiting.push_back(vertex);
     }
-    for (const EdgeId edge : lattice.complex->edges(VertexId{static_cast<std::int32_t>(v)})) {
-      if (lattice.complex->is_boundary(edge)) {
-        lattice.sharpness.edges[edge] = kInfiniteSharpness;
+  }
+  // Where another sharp edge ends, a third one makes a corner, which may fold just as well.
+  while (!waiting.empty()) {
+    const VertexId vertex = waiting.back();
+    waiting.pop_back();
+    for (const EdgeId edge : sharpen(*lattice.complex, vertex, lattice.sharpness)) {
+      const VertexId end = lattice.complex->other_end(edge, vertex);
+      if (n_sharp_edges(*lattice.complex, end, lattice.sharpness) > 2) {
+        waiting.push_back(end);
       }
     }
   }
