@@ -72,7 +72,7 @@ bool CellSet::is_joined(const ElementPlace& node, unsigned q, unsigned axis) con
 }
 
 CellSet::Fan CellSet::fan_of(const ElementPlace& node, unsigned q) const {
-  Fan fan{1U << q, false};
+  Fan fan{1U << q};
   for (unsigned before = 0; before != fan.cells;) {
     before = fan.cells;
     for (unsigned at = 0; at < 8; ++at) {
@@ -97,7 +97,8 @@ CellSet::Fan CellSet::fan_of(const ElementPlace& node, unsigned q) const {
   const int n = n_closed[0] + n_closed[1] + n_closed[2];
   const bool is_straight = n == 2 && std::max({n_closed[0], n_closed[1], n_closed[2]}) == 2 &&
                            std::has_single_bit(ends) && fan.cells == 0xFF;
-  fan.has_corner_slit = n > 0 && !is_straight;
+  fan.has_slit = n > 0;
+  fan.has_corner_slit = fan.has_slit && !is_straight;
   return fan;
 }
 
@@ -134,6 +135,7 @@ GridCells CellSet::make_cells(double gap) const {
     earlier.push_back(last);
     last = static_cast<std::int32_t>(fans.size());
     fans.emplace_back(node, fan.cells);
+    result.is_fixed.push_back(fan.has_slit ? 1 : 0);
     result.is_sharp.push_back(
         fan.has_corner_slit || has_edge_contact(fan.cells) || is_tripod(fan.cells) ? 1 : 0);
     return last;
@@ -157,7 +159,9 @@ GridCells CellSet::make_cells(double gap) const {
     const auto& [node, cells] = fans[v];
     const bool is_alone =
         earlier[v] < 0 && vertices[frame_.index(node)] == static_cast<std::int32_t>(v);
-    result.is_split.push_back(is_alone ? 0 : 1);
+    if (!is_alone) {
+      result.is_fixed[v] = 1;
+    }
     const glm::dvec3 back = is_alone ? glm::dvec3(0) : middle_of(cells) * (gap * frame_.step);
     result.mesh.points.push_back(frame_.center(node) + back);
   }

@@ -17,7 +17,7 @@ struct GridCells {
   CellMesh mesh;                      ///< cells as the set's, vertices apart where cells are
   std::vector<std::size_t> elements;  ///< #cells: the grid's element
   std::vector<std::array<std::int32_t, 8>> corners;  ///< #cells, as in index_order.h
-  std::vector<char> is_split;                        ///< #vertices: not the only one of its node
+  std::vector<char> is_fixed;  ///< #vertices: not the only one of its node, or where a slit ends
   std::vector<char>
       is_sharp;  ///< #vertices: all boundary edges there must be sharp, see make_cells
 };
@@ -50,7 +50,8 @@ class CellSet {
   /// Which of the eight cells round a node, bit q = i + 2j + 4k, hold together there.
   struct Fan {
     unsigned cells = 0;
-    bool has_corner_slit = false;
+    bool has_slit = false;         ///< neighbours that are not joined
+    bool has_corner_slit = false;  ///< other than straight through
   };
   [[nodiscard]] ElementPlace cell_round(const ElementPlace& node, unsigned q) const;
   /// The fan that cell q belongs to.

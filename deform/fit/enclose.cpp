@@ -80,7 +80,7 @@ std::vector<glm::dvec3> relaxed_points(const GridCells& cells, const CellComplex
           n += 1;
         }
       }
-      if (cells.is_split[vertex.index()] == 0) {
+      if (cells.is_fixed[vertex.index()] == 0) {
         points[vertex.index()] = 0.5 * before[vertex.index()] + 0.5 * sum / n;
       }
     }

@@ -27,7 +27,7 @@ struct SharedCell {
 class Block {
  public:
   Block(const CellSet& coarse, const CellSet& fine, const ElementPlace& place)
-      : fine_(fine), place_(place) {
+      : coarse_(coarse), fine_(fine), place_(place) {
     for (int i = 0; i < kBlock * kBlock * kBlock; ++i) {
       const auto [x, y, z] = at(i);
       const ElementPlace cell = {place[0] + (x / kFiner - 1) * 2, place[1] + (y / kFiner - 1) * 2,
@@ -36,14 +36,13 @@ class Block {
     }
   }
 
-  /// The least number of fine cells between two parts in the middle cell; -1: it holds one part.
+  /// The least number of fine cells between two parts in or beside the middle cell; -1: there is
+  /// one part.
   int n_between() {
     int n_parts = 0;
     std::vector<int> middle;
     for (int i = 0; i < kBlock * kBlock * kBlock; ++i) {
-      const auto where = at(i);
-      if (std::all_of(where.begin(), where.end(), [](int x) { return x / kFiner == 1; }) &&
-          part_[static_cast<std::size_t>(i)] != -1) {
+      if (part_[static_cast<std::size_t>(i)] != -1 && is_of_middle(at(i))) {
         middle.push_back(i);
         n_parts += part_[static_cast<std::size_t>(i)] == -2 ? 1 : 0;
         flood(i, n_parts);
@@ -55,6 +54,19 @@ class Block {
  private:
   static std::array<int, 3> at(int i) {
     return {i % kBlock, i / kBlock % kBlock, i / (kBlock * kBlock)};
+  }
+  /// Whether a fine cell is in the middle cell, or beside it in a cell that is joined to it: the
+  /// margin of a surface there reaches into the cell.
+  [[nodiscard]] bool is_of_middle(const std::array<int, 3>& where) const {
+    ElementPlace face = place_;
+    int n_away = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int away = where[axis] / kFiner - 1;
+      const bool is_beside = where[axis] == kFiner - 1 || where[axis] == 2 * kFiner;
+      n_away += away == 0 ? 0 : is_beside ? 1 : 2;
+      face[axis] += away;
+    }
+    return n_away == 0 || (n_away == 1 && coarse_.has(face));
   }
   /// Of fine cell i of the block.
   [[nodiscard]] ElementPlace fine_place(int i) const {
@@ -108,6 +120,7 @@ class Block {
     return least;
   }
 
+  const CellSet& coarse_;
   const CellSet& fine_;
   ElementPlace place_;
   std::array<int, kBlock * kBlock * kBlock> part_{};  // -1: no cell, -2: not known yet

@@ -20,10 +20,10 @@ struct SharedPlace {
                    ///< than what can be told apart, a third of a cell
 };
 
-/// Finds them on a grid three times as fine: parts are joined if they are in the block of 3 × 3 × 3
-/// cells round the cell. triangles, is_closed: as for classify_elements(). Nothing for grids too
-/// large for that, of more than about a hundred cells each way. Sorted by number of cells, most
-/// first.
+/// Finds them on a grid three times as fine, with what lies that near to a cell: parts are joined
+/// if they are in the block of 3 × 3 × 3 cells round the cell. triangles, is_closed: as for
+/// classify_elements(). Nothing for grids too large for that, of more than about a hundred cells
+/// each way. Sorted by number of cells, most first.
 [[nodiscard]] std::vector<SharedPlace> find_shared_places(const CellSet& cells,
                                                           std::span<const Triangle> triangles,
                                                           bool is_closed);

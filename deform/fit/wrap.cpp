@@ -86,12 +86,11 @@ Box checked_box(const Model& model, int n) {
   return box;
 }
 
+/// Where a gap is too narrow to be told, four times as many cells are worth trying.
 int cells_to_part(const std::vector<SharedPlace>& shared, const GridFrame& frame, int n) {
   double most = 0;
   for (const SharedPlace& place : shared) {
-    if (place.gap > 0) {
-      most = std::max(most, n * frame.step * (1 + 2 * kTouch) / place.gap);
-    }
+    most = std::max(most, place.gap > 0 ? n * frame.step * (1 + 2 * kTouch) / place.gap : 4.0 * n);
   }
   return most > kMostWrapCells ? 0 : static_cast<int>(std::ceil(most));
 }

@@ -19,8 +19,8 @@ struct Wrap {
   SubdivisionLattice lattice;
   double step = 0;                  ///< of the grid, model units
   std::vector<SharedPlace> shared;  ///< where limbs share cells though they do not touch
-  int cells_to_part = 0;  ///< along the longest side, enough to keep all of `shared` apart that can
-                          ///< be told apart; 0: none
+  int cells_to_part = 0;  ///< along the longest side, worth trying to keep all of `shared` apart:
+                          ///< enough where their gaps can be told; 0: more than there may be
 };
 
 /// The cells of a grid, `n` along the longest side of the model's box, that its surface touches or

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "deform/fit/conversion.h"
+#include "deform/fit/sweep.h"
 #include "deform/fit/wrap.h"
 #include "deform/scene/lattice_parameters.h"
 #include "deform/scene/operations.h"
@@ -17,7 +18,9 @@ namespace {
 
 using Type = ParameterType;
 
-constexpr std::array kWays = {"extrude", "thicken", "solid", "wrap"};
+constexpr std::array kWays = {"extrude", "thicken", "solid", "wrap", "sweep"};
+/// What only one of them has.
+constexpr std::array kSweepOptions = {"radius", "padding", "reach", "core", "rings"};
 
 bool has_way(const Arguments& arguments, const char* way) {
   return way == std::string("solid") ? arguments.flag(way) : arguments.has(way);
@@ -49,10 +52,8 @@ Scene with_count(Scene scene, const Arguments& arguments, const Progress& progre
 
 /// A lattice converts to itself: what changes is its file. Its tags stay.
 Scene convert_lattice(const Scene& scene, const Arguments& arguments, const Progress& progress) {
-  for (const char* option : {"extrude", "thicken", "solid", "wrap", "layers", "sharp"}) {
-    if (arguments.has(option)) {
-      throw ParameterError(std::string("'") + option + "' is for surface meshes, not for lattices");
-    }
+  for (const char* option : {"extrude", "thicken", "solid", "wrap", "sweep", "layers", "sharp"}) {
+    refuse(arguments, option, "surface meshes, not for lattices");
   }
   const std::string& name = arguments.text("mesh");
   const std::string& output = arguments.text("output");
@@ -67,7 +68,7 @@ Scene convert_lattice(const Scene& scene, const Arguments& arguments, const Prog
 /// Cells between copies of the mesh, or the one cell inside it.
 CellMesh mesh_from(const Model& model, const Arguments& arguments) {
   if (arguments.flag("solid")) {
-    refuse(arguments, "layers", "--extrude and --thicken");
+    refuse(arguments, "layers", "--extrude, --thicken and --sweep");
     return solid(model.points(), model.faces());
   }
   const int layers = arguments.has("layers") ? arguments.integer("layers") : 1;
@@ -78,7 +79,7 @@ CellMesh mesh_from(const Model& model, const Arguments& arguments) {
 
 Scene wrap_model(const Scene& scene, const Arguments& arguments, const Model& model,
                  const Progress& progress) {
-  refuse(arguments, "layers", "--extrude and --thicken");
+  refuse(arguments, "layers", "--extrude, --thicken and --sweep");
   Wrap wrapped = wrap(model, arguments.integer("wrap"), progress);
   const std::size_t n = model.points().size();
   Scene result = add_lattice(scene, arguments, std::move(wrapped.lattice));
@@ -93,15 +94,41 @@ Scene wrap_model(const Scene& scene, const Arguments& arguments, const Model& mo
                          {n, n, std::move(wrapped.shared), wrapped.cells_to_part});
 }
 
+Scene sweep_path(const Scene& scene, const Arguments& arguments, const Model& model,
+                 const Progress& progress) {
+  const Model& path = model_in(scene, arguments.text("sweep"));
+  SweepOptions options;
+  for (const auto& [name, number] : {std::pair{"radius", &options.radius},
+                                     {"padding", &options.padding},
+                                     {"reach", &options.reach}}) {
+    *number = arguments.has(name) ? arguments.number(name) : *number;
+  }
+  for (const auto& [name, count] :
+       {std::pair{"core", &options.core}, {"rings", &options.rings}, {"layers", &options.layers}}) {
+    *count = arguments.has(name) ? arguments.integer(name) : *count;
+  }
+  if (arguments.has("radius") && options.radius <= 0) {
+    throw ParameterError("'radius' must be positive");
+  }
+  CellMesh mesh = sweep(path.points(), polylines_of(path), model.points(), options);
+  return with_count(add_lattice(scene, arguments, std::move(mesh), progress), arguments, progress);
+}
+
 Scene convert_model(const Scene& scene, const Arguments& arguments, const Model& model,
                     const Progress& progress) {
   const auto n_ways = std::count_if(kWays.begin(), kWays.end(),
                                     [&](const char* way) { return has_way(arguments, way); });
   if (n_ways != 1) {
     throw ParameterError(n_ways == 0 ? "'extrude' is missing: direction and length dx dy dz; or "
-                                       "--thicken, --solid or --wrap"
-                                     : "'extrude', --thicken, --solid and --wrap exclude each "
-                                       "other");
+                                       "--thicken, --solid, --wrap or --sweep"
+                                     : "'extrude', --thicken, --solid, --wrap and --sweep exclude "
+                                       "each other");
+  }
+  if (arguments.has("sweep")) {
+    return sweep_path(scene, arguments, model, progress);
+  }
+  for (const char* option : kSweepOptions) {
+    refuse(arguments, option, "--sweep");
   }
   if (arguments.has("wrap")) {
     return wrap_model(scene, arguments, model, progress);
@@ -150,9 +177,30 @@ std::vector<Operation> convert_operations() {
          .type = Type::Integer,
          .help = "the cells of a grid that the mesh touches or encloses, drawn round it: how many "
                  "along its longest side, 1 to 128"},
+        {.name = "sweep",
+         .type = Type::Model,
+         .help =
+             "a round bar along a path, the lines of an OBJ file, as wide as the mesh is there"},
         {.name = "layers",
          .type = Type::Integer,
-         .help = "cells along the direction or the normals (default 1)"},
+         .help = "cells along the direction or the normals (default 1), or along each piece of the "
+                 "path (default: about as long as wide)"},
+        {.name = "radius",
+         .type = Type::Number,
+         .help = "of a sweep, instead of the mesh's, model units"},
+        {.name = "padding",
+         .type = Type::Number,
+         .help = "added to a sweep's radius by the mesh, as a fraction of it (default 0.05)"},
+        {.name = "reach",
+         .type = Type::Number,
+         .help = "points of the mesh farther from the path do not count, model units (default: all "
+                 "do)"},
+        {.name = "core",
+         .type = Type::Integer,
+         .help = "cells across a sweep's middle (default 2)"},
+        {.name = "rings",
+         .type = Type::Integer,
+         .help = "cells from a sweep's middle to its side (default 1)"},
         {.name = "model",
          .type = Type::Model,
          .help = "whose share inside the lattice is told (default: the mesh itself)"},

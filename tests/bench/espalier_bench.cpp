@@ -25,7 +25,7 @@ struct Section {
 
 constexpr Section kSections[] = {
     {"topology", bench_topology},     {"embedding", bench_embedding}, {"freezing", bench_freezing},
-    {"evaluation", bench_evaluation}, {"reposing", bench_reposing},
+    {"evaluation", bench_evaluation}, {"reposing", bench_reposing},   {"fitting", bench_fitting},
 };
 
 int run(std::span<const std::string_view> names) {
