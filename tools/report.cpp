@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "lattice/core/box.h"
+#include "lattice/topology/corner_check.h"
 #include "lattice/topology/sharpness.h"
 #include "lattice/topology/validate.h"
 
@@ -85,6 +86,7 @@ Json lattice_json(const SubdivisionLattice& lattice) {
                {"cells", complex.n_cells()},
                {"valences", valences(complex)},
                {"non_manifold", touching(complex)},
+               {"inverted_at_corner", count_cells_inverted_at_corners(complex, lattice.rest)},
                {"tags", tags(lattice.sharpness)},
                {"has_pose", !lattice.pose.empty()},
                {"valid", true},
@@ -133,27 +135,36 @@ std::string counts_text(const SubdivisionLattice& lattice) {
                      complex.n_edges(), complex.n_faces(), complex.n_cells());
 }
 
-std::string lattice_text(const SubdivisionLattice& lattice) {
-  const Json json = lattice_json(lattice);
-  const Box bounds = box_of(lattice.rest);
+/// What kinds of edges and cells there are, from the lattice's report in JSON.
+std::string shape_text(const Json& json) {
   const Json& valence = json["valences"];
-  const Json& tag = json["tags"];
   return fmt::format(
-      "subdivision lattice, {} scheme{}\n"
-      "  {}\n"
       "  faces at inner edges     {}\n"
       "  faces at boundary edges  {}\n"
       "  faces of cells           {}\n"
       "  cells meet in an edge only at {} edges, in a vertex only at {} vertices\n"
+      "  cells inverted at a corner: {}\n",
+      histogram_text(valence["faces_at_inner_edges"]),
+      histogram_text(valence["faces_at_boundary_edges"]), histogram_text(valence["faces_of_cells"]),
+      json["non_manifold"]["edges"].dump(), json["non_manifold"]["vertices"].dump(),
+      json["inverted_at_corner"].dump());
+}
+
+std::string lattice_text(const SubdivisionLattice& lattice) {
+  const Json json = lattice_json(lattice);
+  const Box bounds = box_of(lattice.rest);
+  const Json& tag = json["tags"];
+  return fmt::format(
+      "subdivision lattice, {} scheme{}\n"
+      "  {}\n"
+      "{}"
       "  sharp edges {}, semi-sharp {}; corners {}, semi-sharp {}\n"
       "  box {}  to  {}\n"
       "  valid\n",
       name_of(lattice.scheme), lattice.pose.empty() ? "" : ", posed", counts_text(lattice),
-      histogram_text(valence["faces_at_inner_edges"]),
-      histogram_text(valence["faces_at_boundary_edges"]), histogram_text(valence["faces_of_cells"]),
-      json["non_manifold"]["edges"].dump(), json["non_manifold"]["vertices"].dump(),
-      tag["sharp_edges"].dump(), tag["semi_sharp_edges"].dump(), tag["corners"].dump(),
-      tag["semi_sharp_vertices"].dump(), text_of(bounds.min), text_of(bounds.max));
+      shape_text(json), tag["sharp_edges"].dump(), tag["semi_sharp_edges"].dump(),
+      tag["corners"].dump(), tag["semi_sharp_vertices"].dump(), text_of(bounds.min),
+      text_of(bounds.max));
 }
 
 template <class Numbers>
@@ -344,6 +355,32 @@ void add_counts(const Scene& scene, Json& json, std::string& text) {
   }
 }
 
+/// Adds how much of a model a new lattice holds, and where its limbs share cells.
+void add_conversion(const Conversion& conversion, Json& json, std::string& text) {
+  if (conversion.n_points == 0) {
+    return;
+  }
+  const double share =
+      static_cast<double>(conversion.n_inside) / static_cast<double>(conversion.n_points);
+  json["model"] = {
+      {"points", conversion.n_points}, {"inside", conversion.n_inside}, {"share_inside", share}};
+  text += fmt::format("  {} of the model's {} inside: {:.4g} %\n", conversion.n_inside,
+                      counted(conversion.n_points, "point", "points"), 100 * share);
+  json["shared"] = Json::array();
+  for (const SharedPlace& place : conversion.shared) {
+    json["shared"].push_back(
+        {{"cells", place.n_cells}, {"center", to_json(place.center)}, {"gap", place.gap}});
+    text += fmt::format("  limbs share {} round {} though they do not touch there\n",
+                        counted(place.n_cells, "cell", "cells"), text_of(place.center));
+  }
+  if (!conversion.shared.empty()) {
+    json["wrap_to_part"] = conversion.cells_to_part == 0 ? Json() : Json(conversion.cells_to_part);
+    text += conversion.cells_to_part == 0
+                ? "  they are too close for any grid: part them in the model\n"
+                : fmt::format("  to keep them apart try --wrap {}\n", conversion.cells_to_part);
+  }
+}
+
 }  // namespace
 
 std::string lattice_report(const LatticeReport& report, bool is_json) {
@@ -397,7 +434,12 @@ std::string result_report(const Scene& scene, const std::string& name, const std
     return lattice->second.visit([&](const auto& held) {
       Json json = lattice_json(held);
       json["output"] = path;
-      return is_json ? line(json) : fmt::format("{}: {}\n", path, counts_text(held));
+      std::string text = fmt::format("{}: {}\n", path, counts_text(held));
+      if (const auto found = scene.conversions.find(name); found != scene.conversions.end()) {
+        text += json.contains("valences") ? shape_text(json) : "";
+        add_conversion(found->second, json, text);
+      }
+      return is_json ? line(json) : text;
     });
   }
   const Model& model = model_in(scene, name);

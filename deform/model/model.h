@@ -34,6 +34,8 @@ class Model {
   [[nodiscard]] std::span<const glm::dvec3> normals() const { return data_->layout.normals; }
   /// Polygons of three or more corners: indices of points, in the file's order and winding.
   [[nodiscard]] const CompressedRows<std::int32_t>& faces() const { return data_->layout.faces; }
+  /// Polylines: indices of points, as many as the file names, in its order.
+  [[nodiscard]] const CompressedRows<std::int32_t>& lines() const { return data_->layout.lines; }
   /// The (point, normal) pairs that occur at corners, sorted by point, then normal. A normal that
   /// is used at several points deforms differently at each: pairs are what deforms.
   [[nodiscard]] std::span<const PointNormal> pairs() const { return data_->layout.pairs; }

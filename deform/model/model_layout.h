@@ -84,8 +84,9 @@ struct ModelLayout {
   std::vector<glm::dvec3> normals;              ///< #N × 3, as written, of any length
   std::vector<CoordinatePlaces> normal_places;  ///< #N
   CompressedRows<std::int32_t> faces;           ///< points at the corners of each polygon
-  std::vector<PointNormal> pairs;               ///< that occur; sorted by point, then normal
-  std::vector<FaceGroup> groups;                ///< in the order of their first mention
+  CompressedRows<std::int32_t> lines;  ///< points along each polyline, where a format has them
+  std::vector<PointNormal> pairs;      ///< that occur; sorted by point, then normal
+  std::vector<FaceGroup> groups;       ///< in the order of their first mention
   NumberEncoding encoding = NumberEncoding::FloatText;  ///< but see with_size()
   NumberEncoding normal_encoding = NumberEncoding::FloatText;
 

@@ -139,7 +139,8 @@ class ObjScanner {
   void read_vertex();
   void read_normal();
   void read_face();
-  void read_references();
+  /// The points that the rest of the line names.
+  std::vector<std::int32_t> read_references();
   void read_surface();
 
   void read_coordinates(std::array<std::string_view, 3> names, std::vector<glm::dvec3>& numbers,
@@ -177,7 +178,9 @@ void ObjScanner::read_statement(std::string_view keyword) {
     count(Texture);
   } else if (keyword == "f" || keyword == "fo") {
     read_face();
-  } else if (keyword == "l" || keyword == "p") {
+  } else if (keyword == "l") {
+    layout_.lines.push_back(read_references());
+  } else if (keyword == "p") {
     read_references();
   } else if (keyword == "surf") {
     read_surface();
@@ -307,10 +310,14 @@ void ObjScanner::add_corner_normal(std::int32_t normal) {
   }
 }
 
-void ObjScanner::read_references() {
+std::vector<std::int32_t> ObjScanner::read_references() {
+  std::vector<std::int32_t> points;
   for (auto word = scanner_.next_word(); !word.empty(); word = scanner_.next_word()) {
-    add_other_reference(parse_reference(word));
+    const Reference reference = parse_reference(word);
+    add_other_reference(reference);
+    points.push_back(reference.point);
   }
+  return points;
 }
 
 /// surf s0 s1 t0 t1 v/vt/vn …: only references that may name a normal matter here.

@@ -64,13 +64,16 @@ Scene add_lattice(const Scene& scene, const Arguments& arguments, CellMesh mesh,
   RawLattice raw;
   raw.polyhedra = std::move(mesh.cells);
   raw.rest = std::move(mesh.points);
-  raw.scheme = scheme_of(arguments, Scheme::CatmullClark);
-  const std::string& name = arguments.text("output");
-  SubdivisionLattice lattice = build_lattice(std::move(raw), name, progress);
+  return add_lattice(scene, arguments,
+                     build_lattice(std::move(raw), arguments.text("output"), progress));
+}
+
+Scene add_lattice(const Scene& scene, const Arguments& arguments, SubdivisionLattice lattice) {
+  lattice.scheme = scheme_of(arguments, lattice.scheme);
   if (arguments.has("sharp")) {
     lattice.sharpness = sharpness_of(lattice, arguments.text("sharp"));
   }
-  return with_lattice(scene, name, std::move(lattice));
+  return with_lattice(scene, arguments.text("output"), std::move(lattice));
 }
 
 }  // namespace espalier

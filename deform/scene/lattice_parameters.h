@@ -21,5 +21,8 @@ namespace espalier {
 /// LatticeError if the mesh is no valid lattice, ParameterError for a bad "sharp".
 [[nodiscard]] Scene add_lattice(const Scene& scene, const Arguments& arguments, CellMesh mesh,
                                 const Progress& progress);
+/// The same with a lattice that is valid; it keeps its own tags where "sharp" is absent.
+[[nodiscard]] Scene add_lattice(const Scene& scene, const Arguments& arguments,
+                                SubdivisionLattice lattice);
 
 }  // namespace espalier

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "lattice/core/error.h"
@@ -107,7 +108,8 @@ bool Arguments::flag(const std::string& name) const {
 }
 
 int Arguments::integer(const std::string& name) const {
-  return static_cast<int>(get<std::int64_t>(values_, name));
+  constexpr std::int64_t kLargest = std::numeric_limits<int>::max();
+  return static_cast<int>(std::clamp(get<std::int64_t>(values_, name), -kLargest, kLargest));
 }
 
 double Arguments::number(const std::string& name) const {

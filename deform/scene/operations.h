@@ -21,6 +21,7 @@ namespace espalier {
 [[nodiscard]] std::vector<Operation> inventory_operations();
 [[nodiscard]] std::vector<Operation> tensor_operations();
 [[nodiscard]] std::vector<Operation> lattice_operations();
+[[nodiscard]] std::vector<Operation> convert_operations();
 [[nodiscard]] std::vector<Operation> refine_operations();
 [[nodiscard]] std::vector<Operation> building_operations();
 [[nodiscard]] std::vector<Operation> pose_operations();

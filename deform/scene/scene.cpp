@@ -56,6 +56,7 @@ Scene with_model(Scene scene, const std::string& name, Model model) {
 
 Scene with_lattice(Scene scene, const std::string& name, Lattice lattice) {
   std::erase_if(scene.bound, [&](const auto& entry) { return entry.first.second == name; });
+  scene.conversions.erase(name);
   scene.lattices.insert_or_assign(name, std::move(lattice));
   return scene;
 }

@@ -14,6 +14,7 @@
 #include "deform/embed/crossings.h"
 #include "deform/embed/embed.h"
 #include "deform/evaluate/combine.h"
+#include "deform/fit/conversion.h"
 #include "deform/model/model.h"
 #include "lattice/io/lattice.h"
 #include "lattice/volume/volume.h"
@@ -65,6 +66,8 @@ struct Scene {
                                                                             ///< all of it
   /// By model that a lattice deformed: how many faces it tore where they leave it; absent: none.
   std::map<std::string, std::size_t> torn_faces;
+  /// By lattice that was made from a mesh: what there is to tell about it.
+  std::map<std::string, Conversion> conversions;
 };
 
 /// The named object. Throw ParameterError if the scene has none of that name.

@@ -12,6 +12,7 @@
 #include "lattice/build/checks.h"
 #include "lattice/build/extrude.h"
 #include "lattice/build/extrude_faces.h"
+#include "lattice/build/frames.h"
 #include "lattice/build/offsets.h"
 #include "lattice/build/primitives.h"
 #include "lattice/build/section.h"
@@ -63,20 +64,6 @@ void scale_to_radius(CellMesh& mesh, double radius) {
 glm::dvec3 on_sphere(const glm::dvec3& place) {
   const auto even = [](double x) { return std::tan(x * std::numbers::pi / 4); };
   return glm::normalize(glm::dvec3(even(place.x), even(place.y), even(place.z)));
-}
-
-/// Moves `offset`, across a bone, along it onto a plane through the origin.
-glm::dvec3 slid_onto_plane(const glm::dvec3& offset, const glm::dvec3& bone,
-                           const glm::dvec3& normal) {
-  return offset - bone * (glm::dot(offset, normal) / glm::dot(bone, normal));
-}
-
-/// `vector` turned the shortest way from one unit vector to another that is not its opposite.
-glm::dvec3 carried(const glm::dvec3& vector, const glm::dvec3& from, const glm::dvec3& to) {
-  const glm::dvec3 axis = glm::cross(from, to);
-  const double cosine = glm::dot(from, to);
-  return vector * cosine + glm::cross(axis, vector) +
-         axis * (glm::dot(axis, vector) / (1 + cosine));
 }
 
 std::vector<glm::dvec3> bones_of(const LimbOptions& options) {

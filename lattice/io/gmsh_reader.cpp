@@ -51,12 +51,6 @@ class GmshReader {
   }
 
  private:
-  void expect(std::string_view word) {
-    if (const std::string_view found = reader_.word(word); found != word) {
-      reader_.fail("expected " + std::string(word) + ", not " + quoted(found));
-    }
-  }
-
   void read_header() {
     if (reader_.next().value_or("") != "$MeshFormat") {
       reader_.fail("is no Gmsh mesh: needs the section \"$MeshFormat\"");
@@ -69,7 +63,7 @@ class GmshReader {
       reader_.fail("is binary; only text files are read");
     }
     (void)reader_.integer("the size of numbers");
-    expect("$EndMeshFormat");
+    reader_.expect("$EndMeshFormat");
   }
 
   void skip_section(const std::string& end) {
@@ -108,7 +102,7 @@ class GmshReader {
         }
       }
     }
-    expect("$EndNodes");
+    reader_.expect("$EndNodes");
   }
 
   void read_elements() {
@@ -134,7 +128,7 @@ class GmshReader {
         }
       }
     }
-    expect("$EndElements");
+    reader_.expect("$EndElements");
   }
 
   void read_cell(MeshCell kind) {

@@ -36,9 +36,9 @@ class VtkReader {
   RawLattice read() {
     read_header();
     read_points();
-    expect("CELLS");
+    reader_.expect("CELLS");
     read_corners();
-    expect("CELL_TYPES");
+    reader_.expect("CELL_TYPES");
     read_types();
     if (!mesh_.has_cells()) {
       reader_.fail("has no tetrahedra, hexahedra, wedges or pyramids");
@@ -47,12 +47,6 @@ class VtkReader {
   }
 
  private:
-  void expect(std::string_view word) {
-    if (const std::string_view found = reader_.word(word); found != word) {
-      reader_.fail("expected " + std::string(word) + ", not " + quoted(found));
-    }
-  }
-
   void read_header() {
     const std::string_view first = reader_.next().value_or("");
     if (first != "#" || reader_.rest_of_line().substr(0, 20) != "vtk DataFile Version") {
@@ -63,12 +57,12 @@ class VtkReader {
       reader_.fail(encoding == "BINARY" ? "is binary; only ASCII files are read"
                                         : "expected ASCII, not " + quoted(encoding));
     }
-    expect("DATASET");
-    expect("UNSTRUCTURED_GRID");
+    reader_.expect("DATASET");
+    reader_.expect("UNSTRUCTURED_GRID");
   }
 
   void read_points() {
-    expect("POINTS");
+    reader_.expect("POINTS");
     const std::int64_t n = reader_.count("the number of points");
     (void)reader_.word("the type of the points");
     for (std::int64_t i = 0; i < n; ++i) {
@@ -112,7 +106,7 @@ class VtkReader {
         ends_.push_back(static_cast<std::size_t>(offset));
       }
     }
-    expect("CONNECTIVITY");
+    reader_.expect("CONNECTIVITY");
     (void)reader_.word("the type of the connectivity");
     for (std::int64_t i = 0; i < n_values; ++i) {
       add_corner();

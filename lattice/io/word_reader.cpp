@@ -29,6 +29,12 @@ std::string_view WordReader::word(std::string_view what) {
   return *word;
 }
 
+void WordReader::expect(std::string_view word) {
+  if (const std::string_view found = this->word(word); found != word) {
+    fail("expected " + std::string(word) + ", not " + quoted(found));
+  }
+}
+
 std::int64_t WordReader::integer(std::string_view what) {
   const std::string_view text = word(what);
   std::int64_t number = 0;

@@ -20,6 +20,8 @@ class WordReader {
   [[nodiscard]] std::optional<std::string_view> next();
   /// The next word, which must exist; `what` names it in errors.
   [[nodiscard]] std::string_view word(std::string_view what);
+  /// Reads a word, which must be this one.
+  void expect(std::string_view word);
   [[nodiscard]] std::int64_t integer(std::string_view what);
   /// A number of things, 0 or more. Nothing may be allocated for it: it is only announced.
   [[nodiscard]] std::int64_t count(std::string_view what);

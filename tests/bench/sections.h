@@ -8,6 +8,8 @@ namespace espalier::bench {
 void bench_topology();
 /// Finding points in volumes, to evaluating them, and round trips.
 void bench_embedding();
+/// Making lattices round models.
+void bench_fitting();
 /// Patches, bytes and errors of frozen volumes.
 void bench_freezing();
 /// Evaluating bound points, with the mark of each line.

@@ -8,9 +8,10 @@ namespace {
 
 class BuildingCommands : public CommandLineTest {};
 
-/// Edges, faces and cells of a lattice file.
+/// Vertices, edges, faces and cells, from the first line of a report.
 std::string counts(const std::string& text) {
-  return text.substr(text.find(": ") + 2);
+  const std::size_t begin = text.find(": ") + 2;
+  return text.substr(begin, text.find('\n') + 1 - begin);
 }
 
 TEST_F(BuildingCommands, build_a_lattice_step_by_step_in_one_file) {
@@ -89,7 +90,7 @@ TEST_F(BuildingCommands, convert_thickens_along_normals_and_fills_closed_meshes)
             "thicken: two faces run along edge 1-2 in the same direction; the mesh needs one "
             "outside");
   EXPECT_EQ(refusal({"convert", "cube.obj", "--solid", "--thicken", "1", "-o", "b.json"}, 2),
-            "--extrude, --thicken and --solid exclude each other");
+            "--extrude, --thicken, --solid, --wrap and --sweep exclude each other");
 }
 
 TEST_F(BuildingCommands, read_volume_meshes_and_never_write_them) {
@@ -98,7 +99,12 @@ TEST_F(BuildingCommands, read_volume_meshes_and_never_write_them) {
       "MeshVersionFormatted 1\nDimension 3\nVertices\n5\n0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1\n"
       "1 1 1 1\nTetrahedra\n2\n1 2 3 4 1\n5 2 3 4 1\nEnd\n");
   EXPECT_EQ(done({"convert", "a.mesh", "-o", "a.ovm"}),
-            "a.ovm: 5 vertices, 9 edges, 7 faces, 2 cells\n");
+            "a.ovm: 5 vertices, 9 edges, 7 faces, 2 cells\n"
+            "  faces at inner edges     none\n"
+            "  faces at boundary edges  6 × 2, 3 × 3\n"
+            "  faces of cells           2 × 4\n"
+            "  cells meet in an edge only at 0 edges, in a vertex only at 0 vertices\n"
+            "  cells inverted at a corner: 0\n");
   EXPECT_EQ(done({"refine", "a.mesh", "-o", "b.json"}).substr(0, 8), "b.json: ");
   for (const char* output : {"b.mesh", "b.vtk", "b.msh"}) {
     EXPECT_EQ(refusal({"convert", "a.mesh", "-o", output}, 1),

@@ -15,6 +15,7 @@ TEST_F(InfoCommand, tells_a_lattice_in_words) {
             "  faces at boundary edges  20 × 2, 12 × 3\n"
             "  faces of cells           4 × 6\n"
             "  cells meet in an edge only at 0 edges, in a vertex only at 0 vertices\n"
+            "  cells inverted at a corner: 0\n"
             "  sharp edges 20, semi-sharp 0; corners 8, semi-sharp 0\n"
             "  box 0 0 0  to  1 1 0.5\n"
             "  valid\n");

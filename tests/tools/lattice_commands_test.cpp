@@ -122,7 +122,13 @@ TEST_F(LatticeCommands, convert_extrudes_every_face_into_a_stack_of_cells) {
       "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nf 2 3 6 5\nf 3 4 7 6\n");
   EXPECT_EQ(done({"convert", "strip.obj", "--extrude", "0.5", "0", "-2", "--layers", "2", "-o",
                   "strip.json"}),
-            "strip.json: 18 vertices, 33 edges, 20 faces, 4 cells\n");
+            "strip.json: 18 vertices, 33 edges, 20 faces, 4 cells\n"
+            "  faces at inner edges     1 × 4\n"
+            "  faces at boundary edges  20 × 2, 12 × 3\n"
+            "  faces of cells           4 × 6\n"
+            "  cells meet in an edge only at 0 edges, in a vertex only at 0 vertices\n"
+            "  cells inverted at a corner: 0\n"
+            "  6 of the model's 7 points inside: 85.71 %\n");
   const Json vertices = read_json("strip.json")["vertices"];
   ASSERT_EQ(vertices.size(), 18u);
   for (std::size_t i = 0; i < 18; ++i) {
