@@ -10,8 +10,10 @@
 #include <optional>
 #include <string>
 
+#include "deform/evaluate/displace.h"
 #include "deform/injectivity/injectivity.h"
 #include "deform/model/model_file.h"
+#include "deform/model/volume_change.h"
 #include "deform/scene/bind.h"
 #include "deform/scene/indexed_vector.h"
 #include "deform/scene/pose.h"
@@ -35,6 +37,8 @@ struct CheckReport {
   bool is_boundary_at_rest = false;
   std::optional<SafeStep> step;  // of the drag
   bool is_bounded = true;
+  bool has_model = false;
+  std::optional<double> volume_change;  // of the model, in per cent; none if it is not closed
 };
 
 const char* name_of(Verdict verdict) {
@@ -78,6 +82,9 @@ Json json_of(const CheckReport& report) {
     json["undecided_boxes"].push_back(
         {{"patch", box.patch}, {"low", json_of(box.box.low)}, {"high", json_of(box.box.high)}});
   }
+  if (report.has_model) {
+    json["volume_change"] = report.volume_change ? Json(*report.volume_change) : Json();
+  }
   if (report.step) {
     json["largest_step"] = report.is_bounded ? Json(report.step->step) : Json();
     json["largest_step_is_tight"] = report.step->is_tight;
@@ -104,6 +111,11 @@ std::string text_of(const std::string& path, const CheckReport& report) {
   if (!report.local.undecided.empty()) {
     text += fmt::format("  undecided in {} boxes\n", report.local.undecided.size());
   }
+  if (report.has_model) {
+    text += report.volume_change
+                ? fmt::format("  volume of the model: {:+.2f} %\n", *report.volume_change)
+                : "  volume of the model: none, it is not closed\n";
+  }
   if (report.step) {
     text += report.is_bounded ? fmt::format("  largest step: {}\n", report.step->step)
                               : "  largest step: unbounded\n";
@@ -127,9 +139,8 @@ bool is_boundary_at_rest(const Volume& volume, std::span<const glm::dvec3> pose)
 }
 
 /// The patches that hold a point of the model.
-std::vector<std::int32_t> patches_of(const Volume& volume, const Model& model,
-                                     const Progress& progress) {
-  std::vector<std::int32_t> patches = embed(volume, model.points(), progress).patches;
+std::vector<std::int32_t> patches_of(const Binding& binding) {
+  std::vector<std::int32_t> patches = binding.patches;
   patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
   return patches;
 }
@@ -189,7 +200,13 @@ CheckReport check_lattice(const Arguments& arguments, const Session& session) {
   const std::vector<glm::dvec3> pose = posed_controls(path, lattice);
   if (arguments.has("model")) {
     const Model model = read_model(arguments.text("model"));
-    report.local = check.local(pose, patches_of(*volume, model, session.progress));
+    const Binding binding = embed(*volume, model.points(), session.progress);
+    report.local = check.local(pose, patches_of(binding));
+    report.has_model = true;
+    report.volume_change = volume_change(
+        model.points(),
+        displaced_points(*volume, binding, model.points(), volume->displacements(pose)),
+        model.faces());
   } else {
     report.local = check.local(pose);
   }
@@ -223,7 +240,8 @@ Command check_command() {
             .is_positional = true},
            {.name = "model",
             .type = ParameterType::Path,
-            .help = "check only the patches that hold points of this model (default: all)"},
+            .help = "check only the patches that hold points of this model, and tell how much "
+                    "the volume inside it changes (default: all patches)"},
            {.name = "drag",
             .type = ParameterType::Text,
             .help = "INDEX=dx,dy,dz, a control point and how it moves from the pose: tells the "

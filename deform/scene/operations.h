@@ -24,6 +24,7 @@ namespace espalier {
 [[nodiscard]] std::vector<Operation> refine_operations();
 [[nodiscard]] std::vector<Operation> building_operations();
 [[nodiscard]] std::vector<Operation> pose_operations();
+[[nodiscard]] std::vector<Operation> limb_pose_operations();
 [[nodiscard]] std::vector<Operation> deform_operations();
 
 }  // namespace espalier

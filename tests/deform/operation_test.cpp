@@ -110,14 +110,16 @@ TEST(Operation, the_table_has_distinct_names_and_tells_all_about_its_parameters)
       EXPECT_FALSE(parameter.is_required && parameter.fallback) << parameter.name;
     }
   }
-  EXPECT_EQ(names, (std::set<std::string>{
-                       "attach",      "bind",        "convert",      "crease",        "deform",
-                       "delete",      "extrude",     "merge",        "mirror",        "move points",
-                       "new annulus", "new barbell", "new bezier",   "new bspline",   "new nurbs",
-                       "new thb",     "new box",     "new cylinder", "new junction",  "new limb",
-                       "new ogrid",   "new sphere",  "new star",     "new torus",     "open",
-                       "refine",      "relax",       "save",         "save deformed", "set pose",
-                       "split",       "transform",   "weld"}));
+  EXPECT_EQ(names,
+            (std::set<std::string>{
+                "attach",      "bind",        "convert",      "crease",       "deform",
+                "delete",      "extrude",     "merge",        "mirror",       "move points",
+                "new annulus", "new barbell", "new bezier",   "new bspline",  "new nurbs",
+                "new thb",     "new box",     "new cylinder", "new junction", "new limb",
+                "new ogrid",   "new sphere",  "new star",     "new torus",    "open",
+                "pose bend",   "pose move",   "pose rotate",  "pose scale",   "pose taper",
+                "pose twist",  "refine",      "relax",        "save",         "save deformed",
+                "set pose",    "split",       "transform",    "weld"}));
   EXPECT_THROW((void)operation_named("new"), ParameterError);
 }
 
