@@ -149,12 +149,13 @@ std::vector<Ray> rays_across(const glm::dvec3& from, const glm::dvec3& to) {
 
 /// What bones see of a surface across them.
 struct Sight {
-  std::vector<std::int32_t> points;  // of the faces seen
-  std::vector<double> reach;         // of each bone: twice what four of five rays stay below
+  std::vector<std::int32_t> points;                        // of the faces seen
+  double reach = std::numeric_limits<double>::infinity();  // of the first bone
 };
 
 Sight seen_from_bones(std::span<const glm::dvec3> points, const CompressedRows<std::int32_t>& faces,
                       std::span<const glm::dvec3> joints) {
+  constexpr double kReach = 2.5;  // of the middle ray's way
   Sight sight;
   for (std::size_t bone = 0; bone + 1 < joints.size(); ++bone) {
     const std::vector<Ray> rays = rays_across(joints[bone], joints[bone + 1]);
@@ -169,8 +170,10 @@ Sight seen_from_bones(std::span<const glm::dvec3> points, const CompressedRows<s
         distances.push_back(distance);
       }
     }
-    std::sort(distances.begin(), distances.end());
-    sight.reach.push_back(distances.empty() ? 0 : 2 * distances[distances.size() * 4 / 5]);
+    if (bone == 0 && !distances.empty()) {
+      std::sort(distances.begin(), distances.end());
+      sight.reach = kReach * distances[distances.size() / 2];
+    }
   }
   return sight;
 }
@@ -270,7 +273,7 @@ std::vector<std::int32_t> limb_points(std::span<const glm::dvec3> points,
     const bool looks_back =
         !normals.empty() && glm::dot(normals[i], points[i] - foot_of(place, joints)) < 0;
     if (is_reached[i] || place.beyond > 0 || looks_back ||
-        (is_surface && place.distance > sight.reach[place.bone])) {
+        (place.bone == 0 && place.distance > sight.reach)) {
       continue;
     }
     is_reached[i] = true;

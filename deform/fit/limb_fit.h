@@ -11,12 +11,13 @@
 
 namespace espalier {
 
-/// The part of a surface that a chain of joints runs through. Rays from the bones, across them,
-/// meet it first; it goes on from there over the edges of faces, but neither past the plane across
-/// the first bone at the first joint nor past that across the last bone at the last joint, nor
-/// farther from a bone than twice what most of its rays run, nor, on a closed surface, to where
-/// that looks back at the bone, as another limb would. Without faces: all points between the two
-/// planes. joints: two or more, consecutive ones different. Points in increasing order. O(72 #bones
+/// The part of a surface that a chain of joints runs through, from the body on. Rays from the
+/// bones, across them, meet it first; it goes on from there over the edges of faces, but neither
+/// past the plane across the first bone at the first joint nor past that across the last bone at
+/// the last joint; nor, where the first bone is nearest, farther from it than two and a half times
+/// the way of its middle ray, since there the body begins; nor, on a closed surface, to where that
+/// looks back at the bone, as another limb would. Without faces: all points between the two planes.
+/// joints: two or more, consecutive ones different. Points in increasing order. O(72 #bones
 /// #faces).
 [[nodiscard]] std::vector<std::int32_t> limb_points(std::span<const glm::dvec3> points,
                                                     const CompressedRows<std::int32_t>& faces,

@@ -447,16 +447,18 @@ std::vector<Operation> jointed_operations() {
               number("length", "of each from the centre (default 1)"),
               count("layers", "cells along each (default 3)")},
              {.places = {"center", "radius", "length"}}, junction_options),
-      making("new limb", "Make wedges along a chain of joints",
-             {{.name = "joint",
-               .type = Type::Text,
-               .help = "x,y,z or x,y,z,radius; two or more, in order; with --fit x,y,z",
-               .is_required = true,
-               .is_list = true},
-              number("radius", "of the space round joints without their own (default 0.1)"),
-              count("sectors", "wedges round the bones (default 8)"),
-              count("layers", "cells along each bone (default 3)")},
-             {.places = {"radius"}}, limb_options),
+      making(
+          "new limb", "Make wedges along a chain of joints",
+          {{.name = "joint",
+            .type = Type::Text,
+            .help =
+                "x,y,z or x,y,z,radius; two or more, in order; with --fit x,y,z, from the body on",
+            .is_required = true,
+            .is_list = true},
+           number("radius", "of the space round joints without their own (default 0.1)"),
+           count("sectors", "wedges round the bones (default 8)"),
+           count("layers", "cells along each bone (default 3)")},
+          {.places = {"radius"}}, limb_options),
   };
 }
 
