@@ -11,9 +11,11 @@
 #include <optional>
 #include <string>
 
+#include "deform/evaluate/displace.h"
 #include "deform/injectivity/boundary.h"
 #include "deform/injectivity/injectivity.h"
 #include "deform/model/model_file.h"
+#include "deform/model/volume_change.h"
 #include "deform/scene/bind.h"
 #include "deform/scene/indexed_vector.h"
 #include "deform/scene/pose.h"
@@ -39,6 +41,8 @@ struct CheckReport {
   BoundaryReport boundary;       // unless it is at rest
   std::optional<SafeStep> step;  // of the drag
   bool is_bounded = true;
+  bool has_model = false;
+  std::optional<double> volume_change;  // of the model, in per cent; none if it is not closed
 };
 
 const char* name_of(Verdict verdict) {
@@ -121,6 +125,9 @@ Json json_of(const CheckReport& report) {
   if (!report.is_boundary_at_rest) {
     add_boundary(report.boundary, json);
   }
+  if (report.has_model) {
+    json["volume_change"] = report.volume_change ? Json(*report.volume_change) : Json();
+  }
   if (report.step) {
     json["largest_step"] = report.is_bounded ? Json(report.step->step) : Json();
     json["largest_step_is_tight"] = report.step->is_tight;
@@ -159,17 +166,16 @@ std::string text_of(const std::string& path, const CheckReport& report) {
     text += fmt::format("  undecided in {} pairs of boundary faces\n",
                         report.boundary.undecided.size());
   }
+  if (report.has_model) {
+    text += report.volume_change
+                ? fmt::format("  volume of the model: {:+.2f} %\n", *report.volume_change)
+                : "  volume of the model: none, it is not closed\n";
+  }
   if (report.step) {
     text += report.is_bounded ? fmt::format("  largest step: {}\n", report.step->step)
                               : "  largest step: unbounded\n";
   }
   return text;
-}
-
-/// Weights of the volume's points in the pose; empty: as at rest.
-std::vector<double> posed_weights(const Lattice& lattice, const Volume& volume) {
-  const auto* tensor = lattice.as<TensorLattice>();
-  return tensor == nullptr ? std::vector<double>() : point_weights(volume, tensor->pose_weights);
 }
 
 /// Whether no patch with a face on the boundary moves: then the boundary is as simple as at rest.
@@ -190,9 +196,8 @@ bool is_boundary_at_rest(const Volume& volume, const PosedControls& pose) {
 }
 
 /// The patches that hold a point of the model.
-std::vector<std::int32_t> patches_of(const Volume& volume, const Model& model,
-                                     const Progress& progress) {
-  std::vector<std::int32_t> patches = embed(volume, model.points(), progress).patches;
+std::vector<std::int32_t> patches_of(const Binding& binding) {
+  std::vector<std::int32_t> patches = binding.patches;
   patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
   return patches;
 }
@@ -254,15 +259,21 @@ CheckReport check_lattice(const Arguments& arguments, const Session& session) {
   const PosedControls pose(posed.points, weights);
   if (arguments.has("model")) {
     const Model model = read_model(arguments.text("model"));
-    report.local = check.local(pose, patches_of(*volume, model, session.progress));
+    const Binding binding = embed(*volume, model.points(), session.progress);
+    report.local = check.local(pose, patches_of(binding));
     report.elsewhere = check.local(pose).verdict;
+    report.has_model = true;
+    report.volume_change =
+        volume_change(model.points(),
+                      displaced_points(*volume, binding, model.points(),
+                                       volume->displacements(posed.points), weights),
+                      model.faces());
   } else {
     report.local = check.local(pose);
   }
-  const std::vector<double> weights = posed_weights(lattice, *volume);
-  report.is_boundary_at_rest = weights.empty() && is_boundary_at_rest(*volume, pose);
+  report.is_boundary_at_rest = is_boundary_at_rest(*volume, pose);
   if (!report.is_boundary_at_rest) {
-    report.boundary = check_boundary(*volume, pose, weights, {}, session.progress);
+    report.boundary = check_boundary(*volume, posed.points, weights, {}, session.progress);
   }
   if (arguments.has("drag")) {
     add_step(check, pose, arguments.texts("drag"), report);
@@ -293,7 +304,8 @@ Command check_command() {
             .is_positional = true},
            {.name = "model",
             .type = ParameterType::Path,
-            .help = "check only the patches that hold points of this model (default: all)"},
+            .help = "check only the patches that hold points of this model, and tell how much "
+                    "the volume inside it changes (default: all patches)"},
            {.name = "drag",
             .type = ParameterType::Text,
             .help = "INDEX=dx,dy,dz, a control point and how it moves from the pose: tells the "

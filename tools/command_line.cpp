@@ -124,7 +124,9 @@ CLI::App* add_command(CLI::App& program, const Command& command) {
       program.get_subcommands([&](const CLI::App* app) { return app->get_name() == group_name; });
   CLI::App* group = found.empty() ? nullptr : found.front();
   if (group == nullptr) {
-    group = program.add_subcommand(group_name, "Make a lattice: " + group_name + " KIND");
+    const bool is_pose = group_name == "pose";
+    group = program.add_subcommand(group_name, is_pose ? "Pose a lattice: pose HOW"
+                                                       : "Make a lattice: " + group_name + " KIND");
     group->group("Commands");
     group->require_subcommand(1);
   }

@@ -28,13 +28,19 @@ picture() {
 }
 
 echo
-echo "== The arm: a lattice extruded along it lifts it and turns the hand"
+echo "== The arm: a lattice as thick as it needs; the hand turns, the elbow bends, the arm rises"
 run refine "$data/figure.obj" --levels 3 -o figure.obj
-run convert "$data/arm_section.obj" --extrude 0.72 0 0 --layers 10 -o arm.json
+run new ogrid --from 0.2 1.41 0.004 --to 0.93 1.41 0.004 --fit figure.obj --layers 10 -o arm.json
 run info arm.json
-run deform figure.obj --lattice arm.json --pose "$data/arm_posed.json" -o waving.obj
+run pose twist arm.json --from 0.52 1.41 0.004 --to 0.74 1.41 0.004 --angle 85 -o arm-posed.json
+run pose rotate arm-posed.json --about 0.53 1.41 0.004 --along 1 0 0 --axis 0 -1 0 --angle 28 \
+  -o arm-posed.json
+run pose rotate arm-posed.json --about 0.37 1.41 0.004 --along 1 0 0 --axis 0 0 1 --angle 76 \
+  --falloff 0.19 -o arm-posed.json
+run check arm-posed.json --model figure.obj || [ $? -eq 3 ] # 3: nothing folds as far as it can tell
+run deform figure.obj --lattice arm-posed.json -o waving.obj
 picture arm-before figure.obj arm.json --view 20,10
-picture arm-after waving.obj "$data/arm_posed.json" --view 20,10
+picture arm-after waving.obj arm-posed.json --view 20,10
 picture waving waving.obj --view 20,10
 
 echo

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "deform/scene/index_list.h"
+#include "deform/scene/element_lists.h"
 #include "deform/scene/lattice_parameters.h"
 #include "deform/scene/operations.h"
 #include "lattice/build/cells.h"
@@ -16,7 +16,6 @@
 #include "lattice/build/split.h"
 #include "lattice/build/weld.h"
 #include "lattice/core/error.h"
-#include "lattice/core/text_scanner.h"
 #include "lattice/subdivision/edit.h"
 #include "lattice/tensor/placed.h"
 #include "lattice/topology/crease.h"
@@ -28,39 +27,6 @@ using Type = ParameterType;
 using Indices = std::vector<std::int32_t>;
 
 constexpr std::string_view kModelling = "modelling its cells";
-
-// Lists of elements.
-
-/// The indices of a parameter like "0,3,7-9"; none if it is absent.
-Indices indices_of(const Arguments& arguments, const std::string& name) {
-  if (!arguments.has(name)) {
-    return {};
-  }
-  std::optional<Indices> indices = parse_index_list(arguments.text(name));
-  if (!indices) {
-    throw ParameterError("'" + name + "' is " + quoted(arguments.text(name)) +
-                         ", must be indices such as 0,3,7-9");
-  }
-  return *std::move(indices);
-}
-
-/// The edges of a parameter like "0-1,4-5" by their ends; none if it is absent.
-std::vector<std::array<std::int32_t, 2>> edges_of(const Arguments& arguments,
-                                                  const std::string& name) {
-  std::vector<std::array<std::int32_t, 2>> edges;
-  if (!arguments.has(name)) {
-    return edges;
-  }
-  for (const std::string& word : words_between(arguments.text(name), ',')) {
-    const auto ends = parse_indices(word);
-    if (!ends || ends->size() != 2) {
-      throw ParameterError("'" + name + "' is " + quoted(arguments.text(name)) +
-                           ", must be edges by their vertices, such as 0-1,4-5");
-    }
-    edges.push_back({(*ends)[0], (*ends)[1]});
-  }
-  return edges;
-}
 
 EdgeId edge_in(const CellComplex& complex, const std::array<std::int32_t, 2>& ends) {
   const auto n = static_cast<std::int32_t>(complex.n_vertices());

@@ -10,8 +10,8 @@ const std::vector<Operation>& operations() {
   static const std::vector<Operation> kTable = [] {
     std::vector<Operation> table;
     for (auto part :
-         {inventory_operations(), tensor_operations(), lattice_operations(), convert_operations(),
-          refine_operations(), building_operations(), pose_operations(), pull_operations(),
+         {inventory_operations(), tensor_operations(), convert_operations(), refine_operations(),
+          building_operations(), pose_operations(), limb_pose_operations(), pull_operations(),
           deform_operations(), file_operations()}) {
       std::move(part.begin(), part.end(), std::back_inserter(table));
     }

@@ -20,12 +20,12 @@ namespace espalier {
 [[nodiscard]] std::vector<Operation> file_operations();
 [[nodiscard]] std::vector<Operation> inventory_operations();
 [[nodiscard]] std::vector<Operation> tensor_operations();
-[[nodiscard]] std::vector<Operation> lattice_operations();
 [[nodiscard]] std::vector<Operation> convert_operations();
 [[nodiscard]] std::vector<Operation> refine_operations();
 [[nodiscard]] std::vector<Operation> building_operations();
 [[nodiscard]] std::vector<Operation> pose_operations();
 [[nodiscard]] std::vector<Operation> pull_operations();
+[[nodiscard]] std::vector<Operation> limb_pose_operations();
 [[nodiscard]] std::vector<Operation> deform_operations();
 
 }  // namespace espalier

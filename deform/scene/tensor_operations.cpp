@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "deform/model/point_selection.h"
+#include "deform/scene/fitting.h"
 #include "deform/scene/lattice_parameters.h"
 #include "deform/scene/operations.h"
 #include "lattice/core/error.h"
@@ -84,36 +84,24 @@ TensorAxis axis_of(int axis, int n_controls, int degree, Ends ends) {
   }
 }
 
+/// Where --fit stands in for the corners.
+const FitKind kFit = {.places = {"min", "max"}, .has_axes = true};
+
 OrientedBox box_of(const Scene& scene, const Arguments& arguments) {
-  constexpr double kUsualPadding = 0.05;
-  if (!arguments.has("fit")) {
-    for (const char* name : {"padding", "axes", "only"}) {
-      if (arguments.has(name)) {
-        throw ParameterError("'" + std::string(name) + "' is for --fit");
-      }
-    }
-    const glm::dvec3 low = arguments.has("min") ? arguments.vector("min") : glm::dvec3(0);
-    const glm::dvec3 high = arguments.has("max") ? arguments.vector("max") : glm::dvec3(1);
-    if (!(low.x < high.x && low.y < high.y && low.z < high.z)) {
-      throw ParameterError("'min' must be below --max along x, y and z");
-    }
-    Box box;
-    box.add(low);
-    box.add(high);
-    return oriented(box);
+  if (arguments.has("fit")) {
+    const FitRequest request = fit_request(scene, arguments, kFit);
+    return fitted_box_of(request.points, request.options, request.padding);
   }
-  if (arguments.has("min") || arguments.has("max")) {
-    throw ParameterError("'fit' and --min, --max exclude each other");
+  require_no_fit_options(arguments);
+  const glm::dvec3 low = arguments.has("min") ? arguments.vector("min") : glm::dvec3(0);
+  const glm::dvec3 high = arguments.has("max") ? arguments.vector("max") : glm::dvec3(1);
+  if (!(low.x < high.x && low.y < high.y && low.z < high.z)) {
+    throw ParameterError("'min' must be below --max along x, y and z");
   }
-  const std::vector<std::string> only = arguments.texts("only");
-  const auto points = selected_points(model_in(scene, arguments.text("fit")), only);
-  const double padding = arguments.has("padding") ? arguments.number("padding") : kUsualPadding;
-  const bool is_principal = arguments.has("axes") && arguments.text("axes") == "principal";
-  try {
-    return is_principal ? fitted_principal_box(points, padding) : fitted_box(points, padding);
-  } catch (const ParameterError& error) {
-    throw ParameterError("'fit': " + std::string(error.what()));
-  }
+  Box box;
+  box.add(low);
+  box.add(high);
+  return oriented(box);
 }
 
 TensorLattice tensor_lattice(TensorKind kind, const Scene& scene, const Arguments& arguments,
@@ -177,22 +165,11 @@ std::vector<Parameter> box_parameters(std::vector<Parameter> more) {
        .type = Type::Numbers,
        .help = "lowest corner of what it fills (default 0 0 0)",
        .count = 3},
-      {.name = "max", .type = Type::Numbers, .help = "highest corner (default 1 1 1)", .count = 3},
-      {.name = "fit", .type = Type::Model, .help = "a model to fill the box of, instead"},
-      {.name = "padding",
-       .type = Type::Number,
-       .help = "of --fit: room on each side, of the model's diagonal (default 0.05)"},
-      {.name = "axes",
-       .type = Type::Choice,
-       .help = "of --fit: the box's, the coordinate axes or the model's own (default world)",
-       .choices = {"world", "principal"}},
-      {.name = "only",
-       .type = Type::Text,
-       .help = "of --fit: only the points of this group or object, or @FILE: of these indices; may "
-               "repeat (default: all points)",
-       .is_list = true},
-      result_parameter("the lattice, .json")};
+      {.name = "max", .type = Type::Numbers, .help = "highest corner (default 1 1 1)", .count = 3}};
   parameters.insert(parameters.end(), common.begin(), common.end());
+  const std::vector<Parameter> fit = fit_parameters(kFit);
+  parameters.insert(parameters.end(), fit.begin(), fit.end());
+  parameters.push_back(result_parameter("the lattice, .json"));
   return parameters;
 }
 

@@ -111,14 +111,15 @@ TEST(Operation, the_table_has_distinct_names_and_tells_all_about_its_parameters)
     }
   }
   EXPECT_EQ(names, (std::set<std::string>{
-                       "attach",        "bind",          "convert",      "crease",     "deform",
-                       "delete",        "densify",       "extrude",      "merge",      "mirror",
-                       "move points",   "new annulus",   "new barbell",  "new bezier", "new box",
-                       "new bspline",   "new cylinder",  "new junction", "new limb",   "new nurbs",
-                       "new ogrid",     "new sphere",    "new star",     "new thb",    "new torus",
-                       "open",          "pull",          "refine",       "relax",      "save",
-                       "save deformed", "set influence", "set pose",     "split",      "transform",
-                       "weld"}));
+                       "attach",      "bind",          "convert",       "crease",      "deform",
+                       "delete",      "densify",       "extrude",       "merge",       "mirror",
+                       "move points", "new annulus",   "new barbell",   "new bezier",  "new box",
+                       "new bspline", "new cylinder",  "new junction",  "new limb",    "new nurbs",
+                       "new ogrid",   "new sphere",    "new star",      "new thb",     "new torus",
+                       "open",        "pose bend",     "pose move",     "pose rotate", "pose scale",
+                       "pose taper",  "pose twist",    "pull",          "refine",      "relax",
+                       "save",        "save deformed", "set influence", "set pose",    "split",
+                       "transform",   "weld"}));
   EXPECT_THROW((void)operation_named("new"), ParameterError);
 }
 

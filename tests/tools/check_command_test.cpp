@@ -117,6 +117,20 @@ TEST_F(CheckCommand, of_the_patches_of_a_model_is_not_sure_of_those_that_fold_el
   EXPECT_EQ(json["injective"], "undecided");
 }
 
+TEST_F(CheckCommand, tells_how_the_volume_of_a_closed_model_changes) {
+  write_file("cube.obj", cube_obj());
+  write_file("open.obj", "v 1 1 1\nv 2 1 1\nv 1 2 1\nf 1 2 3\n");
+  pose_by("box.json", "posed.json", [](const glm::dvec3& x) { return x * glm::dvec3(1.5, 1, 1); });
+  EXPECT_NEAR(report({"posed.json", "--model", "cube.obj"}, 3)["volume_change"].get<double>(), 50,
+              1e-9);
+  EXPECT_EQ(report({"box.json", "--model", "cube.obj"}, 0)["volume_change"], 0);
+  EXPECT_TRUE(report({"posed.json", "--model", "open.obj"}, 3)["volume_change"].is_null());
+  EXPECT_FALSE(report({"box.json"}, 0).contains("volume_change"));
+  EXPECT_NE(run({"check", "posed.json", "--model", "cube.obj"})
+                .out.find("volume of the model: +50.00 %\n"),
+            std::string::npos);
+}
+
 TEST_F(CheckCommand, refuses_drags_that_name_no_point_or_vector) {
   EXPECT_EQ(refusal({"check", "box.json", "--drag", "3=1,nan,2"}, 2),
             "--drag is '3=1,nan,2', must be INDEX=x,y,z with three finite numbers");

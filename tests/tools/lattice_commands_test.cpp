@@ -234,7 +234,7 @@ TEST_F(LatticeCommands, a_lattice_that_would_not_be_valid_is_named_by_its_file) 
   EXPECT_EQ(refusal({"new", "box", "--max", "1e-200", "1", "1", "-o", "flat.json"}, 1),
             "flat.json: invalid lattice: edge 0-1: its ends coincide (and 25 more defects)");
   EXPECT_EQ(refusal({"new", "cylinder", "--end-radius", "0", "-o", "cone.json"}, 2),
-            "--end-radius must be positive: wedge cells cannot end in a point");
+            "--end-radius must be positive: cells cannot end in a point");
   EXPECT_TRUE(files().empty());
 }
 
