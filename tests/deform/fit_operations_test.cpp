@@ -149,11 +149,18 @@ TEST(FitOperations, barbells_hold_every_point_with_the_padding) {
   expect_held_by({"barbell"}, dumbbell());
 }
 
-TEST(FitOperations, junctions_hold_every_point_with_the_padding) {
+TEST(FitOperations, corners_hold_every_point_with_the_padding) {
+  expect_held_by({"junction kind=L layers=1"}, crossing({{1, 0, 0}, {0, 1, 0}}));
+}
+
+TEST(FitOperations, three_bars_that_meet_hold_every_point_with_the_padding) {
+  expect_held_by({"junction kind=T layers=1"}, crossing({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}));
+}
+
+TEST(FitOperations, forks_hold_every_point_with_the_padding) {
   const double turn = std::sqrt(0.75);
-  expect_held_by({"junction kind=L"}, crossing({{1, 0, 0}, {0, 1, 0}}));
-  expect_held_by({"junction kind=T"}, crossing({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}));
-  expect_held_by({"junction kind=Y"}, crossing({{turn, 0.5, 0}, {-turn, 0.5, 0}, {0, -1, 0}}));
+  expect_held_by({"junction kind=Y layers=1"},
+                 crossing({{turn, 0.5, 0}, {-turn, 0.5, 0}, {0, -1, 0}}));
 }
 
 TEST(FitOperations, lattices_of_tiny_and_huge_models_are_the_same_but_for_their_size) {
@@ -175,8 +182,8 @@ TEST(FitOperations, lattices_of_tiny_and_huge_models_are_the_same_but_for_their_
 }
 
 TEST(FitOperations, without_padding_nothing_sticks_out) {
-  for (const char* kind : {"box", "cylinder", "sphere", "torus"}) {
-    const Points points = std::string(kind) == "torus" ? ring() : blob();
+  for (const char* kind : {"box", "ogrid", "sphere cells=1", "torus sectors=6"}) {
+    const Points points = std::string(kind).starts_with("torus") ? ring() : blob();
     const std::string line = std::string("new ") + kind + " fit=m padding=0";
     expect_inside(lattice_of(scene_of(points), line), points, line);
   }
@@ -196,7 +203,8 @@ TEST(FitOperations, lattices_are_not_larger_than_they_need_be) {
   EXPECT_NEAR(most(bar, {0, 0, 1}).low, 0, 1e-12);
   EXPECT_NEAR(most(bar, {0, 0, 1}).high, 2, 1e-12);
   EXPECT_NEAR(most(bar, {1, 0, 0}).high, 0.5 + std::sqrt(0.5), 0.02);
-  const SubdivisionLattice ball = lattice_of(scene_of(corners), "new sphere fit=m padding=0");
+  const SubdivisionLattice ball =
+      lattice_of(scene_of(corners), "new sphere cells=1 fit=m padding=0");
   EXPECT_NEAR(most(ball, {0, 0, 1}).high, 1 + std::sqrt(1.5), 0.06);
 }
 
@@ -313,7 +321,7 @@ TEST(FitOperations, a_limb_of_a_surface_takes_only_what_hangs_together_round_its
 TEST(FitOperations, flat_and_straight_models_get_a_thickness) {
   const Points flat = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {2, 1, 0}};
   const Points straight = {{1, 1, 1}, {2, 3, 4}, {3, 5, 7}};
-  for (const char* kind : {"box", "cylinder", "ogrid", "sphere cells=1", "star"}) {
+  for (const char* kind : {"box", "cylinder sectors=4", "ogrid", "star"}) {
     const std::string line = std::string("new ") + kind + " fit=m padding=";
     expect_inside(lattice_of(scene_of(flat), line + "0"), flat, line);
     expect_inside(lattice_of(scene_of(straight), line + "0.05"), straight, line);
