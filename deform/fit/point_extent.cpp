@@ -67,12 +67,13 @@ Ball enclosing_ball(std::span<const glm::dvec3> points) {
         });
   };
   glm::dvec3 center = box_of(points).center();
-  Ball best = {center, glm::distance(center, farthest_from(center))};
+  glm::dvec3 farthest = farthest_from(center);
+  Ball best = {center, glm::distance(center, farthest)};
   for (int step = 1; step <= kBallSteps; ++step) {
-    center += (farthest_from(center) - center) / (step + 1.0);
-    const double radius = glm::distance(center, farthest_from(center));
-    if (radius < best.radius) {
-      best = {center, radius};
+    center += (farthest - center) / (step + 1.0);
+    farthest = farthest_from(center);
+    if (glm::distance(center, farthest) < best.radius) {
+      best = {center, glm::distance(center, farthest)};
     }
   }
   return {best.center, std::max(best.radius, thinnest)};

@@ -10,6 +10,7 @@
 #include "deform/model/point_selection.h"
 #include "deform/scene/bind.h"
 #include "deform/scene/lattice_parameters.h"
+#include "lattice/build/checks.h"
 #include "lattice/core/error.h"
 
 namespace espalier {
@@ -49,6 +50,12 @@ void require_no_places(const Arguments& arguments, const std::vector<std::string
 
 /// Consecutive joints must differ for bones to have a direction.
 void check_joints(const Points& joints) {
+  if (joints.size() < 2) {
+    throw ParameterError("limb: needs two joints or more");
+  }
+  for (const glm::dvec3& joint : joints) {
+    check_point("limb", "a joint", joint);
+  }
   for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
     if (!(glm::distance(joints[i], joints[i + 1]) > 0)) {
       throw ParameterError("limb: joints " + std::to_string(i) + " and " + std::to_string(i + 1) +

@@ -41,8 +41,8 @@ struct FitRequest {
                                      const FitKind& kind);
 
 /// The same for a limb along joints: of the whole model only the part that runs round them, see
-/// limb_points(). Throws ParameterError also if no point of it is there, or if points that "only"
-/// selects lie beyond its ends.
+/// limb_points(). Throws ParameterError also for fewer than two joints or coinciding ones, if no
+/// point of it is there, or if points that "only" selects lie beyond its ends.
 [[nodiscard]] FitRequest limb_fit_request(const Scene& scene, const Arguments& arguments,
                                           const FitKind& kind,
                                           const std::vector<glm::dvec3>& joints);

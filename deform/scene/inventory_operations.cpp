@@ -271,6 +271,9 @@ Scene add_fitted_bar(const Scene& scene, const Arguments& arguments, FitKind kin
   if (!arguments.has("from") || !arguments.has("to")) {
     throw ParameterError("'from' and --to belong together with --fit");
   }
+  if (bar.from == bar.to) {
+    throw ParameterError("'from' and --to must differ");
+  }
   kind.places = {"radius", "end-radius", "axes", "along"};
   return add_fitted_limb(
       scene, arguments, kind, {bar.from, bar.to},

@@ -149,16 +149,41 @@ TEST(FitOperations, barbells_hold_every_point_with_the_padding) {
   expect_held_by({"barbell"}, dumbbell());
 }
 
-TEST(FitOperations, junctions_hold_every_point_with_the_padding) {
+TEST(FitOperations, corners_hold_every_point_with_the_padding) {
+  expect_held_by({"junction kind=L layers=1"}, crossing({{1, 0, 0}, {0, 1, 0}}));
+}
+
+TEST(FitOperations, three_bars_that_meet_hold_every_point_with_the_padding) {
+  expect_held_by({"junction kind=T layers=1"}, crossing({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}));
+}
+
+TEST(FitOperations, forks_hold_every_point_with_the_padding) {
   const double turn = std::sqrt(0.75);
-  expect_held_by({"junction kind=L"}, crossing({{1, 0, 0}, {0, 1, 0}}));
-  expect_held_by({"junction kind=T"}, crossing({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}));
-  expect_held_by({"junction kind=Y"}, crossing({{turn, 0.5, 0}, {-turn, 0.5, 0}, {0, -1, 0}}));
+  expect_held_by({"junction kind=Y layers=1"},
+                 crossing({{turn, 0.5, 0}, {-turn, 0.5, 0}, {0, -1, 0}}));
+}
+
+TEST(FitOperations, lattices_of_tiny_and_huge_models_are_the_same_but_for_their_size) {
+  for (const char* kind : {"box axes=principal", "cylinder", "ogrid", "star"}) {
+    const std::string line = std::string("new ") + kind + " fit=m";
+    const Points usual = lattice_of(scene_of(blob()), line).rest;
+    for (const double scale : {std::ldexp(1.0, -27), std::ldexp(1.0, 27)}) {
+      Points points = blob();
+      for (glm::dvec3& point : points) {
+        point *= scale;
+      }
+      const Points scaled = lattice_of(scene_of(points), line).rest;
+      ASSERT_EQ(scaled.size(), usual.size());
+      for (std::size_t i = 0; i < usual.size(); ++i) {
+        EXPECT_LT(glm::distance(scaled[i], scale * usual[i]), 1e-12 * scale) << line;
+      }
+    }
+  }
 }
 
 TEST(FitOperations, without_padding_nothing_sticks_out) {
-  for (const char* kind : {"box", "cylinder", "sphere", "torus"}) {
-    const Points points = std::string(kind) == "torus" ? ring() : blob();
+  for (const char* kind : {"box", "ogrid", "sphere cells=1", "torus sectors=6"}) {
+    const Points points = std::string(kind).starts_with("torus") ? ring() : blob();
     const std::string line = std::string("new ") + kind + " fit=m padding=0";
     expect_inside(lattice_of(scene_of(points), line), points, line);
   }
@@ -178,7 +203,8 @@ TEST(FitOperations, lattices_are_not_larger_than_they_need_be) {
   EXPECT_NEAR(most(bar, {0, 0, 1}).low, 0, 1e-12);
   EXPECT_NEAR(most(bar, {0, 0, 1}).high, 2, 1e-12);
   EXPECT_NEAR(most(bar, {1, 0, 0}).high, 0.5 + std::sqrt(0.5), 0.02);
-  const SubdivisionLattice ball = lattice_of(scene_of(corners), "new sphere fit=m padding=0");
+  const SubdivisionLattice ball =
+      lattice_of(scene_of(corners), "new sphere cells=1 fit=m padding=0");
   EXPECT_NEAR(most(ball, {0, 0, 1}).high, 1 + std::sqrt(1.5), 0.06);
 }
 
@@ -190,6 +216,37 @@ TEST(FitOperations, the_padding_is_a_part_of_the_diagonal_of_the_points_that_cou
   // Flat: half as thick as the padding says, on either side, and a thousandth more.
   EXPECT_EQ(box.rest.front(), glm::dvec3(-0.5, -0.5, -0.5 - 0.0025));
   EXPECT_EQ(box.rest.back(), glm::dvec3(3.5, 4.5, 0.5 + 0.0025));
+}
+
+TEST(PointExtent, balls_and_circles_are_nearly_the_smallest) {
+  const double far = 1e6;
+  const glm::dvec3 t(far, -far, 2 * far);
+  // Corners of a regular triangle and tetrahedron, of a flat triangle, and a few points inside.
+  const std::vector<std::pair<Points, double>> sets = {
+      {{{1, 0, 0}, {-0.5, std::sqrt(0.75), 0}, {-0.5, -std::sqrt(0.75), 0}, {0.1, 0.2, 0}}, 1},
+      {{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}, {0, 0.5, 0}}, std::sqrt(3.0)},
+      {{{0, 0, 0}, {10, 0, 0}, {2, 1, 0}, {3, 1, 1}}, 5}};
+  for (const auto& [points, radius] : sets) {
+    Points there;
+    for (const glm::dvec3& p : points) {
+      there.push_back(1e-3 * p + t);
+    }
+    EXPECT_GT(enclosing_ball(points).radius, radius * (1 - 1e-12));
+    EXPECT_LT(enclosing_ball(points).radius, radius * 1.01);
+    EXPECT_NEAR(enclosing_ball(there).radius, 1e-3 * enclosing_ball(points).radius, 1e-8);
+  }
+  const Points column = {{1, 7, 0}, {-0.5, 0, std::sqrt(0.75)}, {-0.5, -9, -std::sqrt(0.75)}};
+  EXPECT_NEAR(enclosing_circle(column, {0, 1, 0}).radius, 1, 0.01);
+  EXPECT_LT(glm::length(enclosing_circle(column, {0, 1, 0}).center), 0.02);
+}
+
+TEST(PointExtent, axes_go_from_the_longest_side_to_the_shortest) {
+  const Points points = {{0, 0, 0}, {1, 5, 3}};
+  const glm::dmat3 axes = sorted_axes(points, false);
+  EXPECT_EQ(axes[0], glm::dvec3(0, 1, 0));
+  EXPECT_EQ(axes[1], glm::dvec3(0, 0, 1));
+  EXPECT_EQ(axes[2], glm::dvec3(1, 0, 0));
+  EXPECT_LT(glm::distance(sorted_axes(points, true)[0], points[1] / glm::length(points[1])), 1e-12);
 }
 
 /// A tube round a chain of joints with a radius at each.
@@ -264,7 +321,7 @@ TEST(FitOperations, a_limb_of_a_surface_takes_only_what_hangs_together_round_its
 TEST(FitOperations, flat_and_straight_models_get_a_thickness) {
   const Points flat = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {2, 1, 0}};
   const Points straight = {{1, 1, 1}, {2, 3, 4}, {3, 5, 7}};
-  for (const char* kind : {"box", "cylinder", "ogrid", "sphere cells=1", "star"}) {
+  for (const char* kind : {"box", "cylinder sectors=4", "ogrid", "star"}) {
     const std::string line = std::string("new ") + kind + " fit=m padding=";
     expect_inside(lattice_of(scene_of(flat), line + "0"), flat, line);
     expect_inside(lattice_of(scene_of(straight), line + "0.05"), straight, line);
@@ -306,6 +363,10 @@ TEST(FitOperations, name_what_they_refuse) {
             "'joint' is '1,0,0,2' with a radius, which --fit finds");
   EXPECT_EQ(refusal(blob(), "new limb joint=0,0,0 joint=0,0,0 fit=m"),
             "limb: joints 0 and 1 coincide");
+  EXPECT_EQ(refusal(blob(), "new limb joint=0,0,0 fit=m"), "limb: needs two joints or more");
+  EXPECT_EQ(refusal(blob(), "new limb joint=0,0,0 joint=nan,0,0 fit=m"),
+            "limb: a joint must have finite coordinates");
+  EXPECT_EQ(refusal(blob(), "new ogrid from=1,1,1 to=1,1,1 fit=m"), "'from' and --to must differ");
   EXPECT_EQ(refusal(blob(), "new limb joint=50,0,0 joint=60,0,0 fit=m"),
             "'fit': no points of m are round the limb, between its ends");
   write_file(::testing::TempDir() + "/espalier_fit_none.txt", "# none\n");

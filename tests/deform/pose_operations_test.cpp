@@ -93,6 +93,21 @@ TEST(PoseOperations, a_models_influence_says_how_much_of_the_motion_is_saved) {
   EXPECT_NE(refusal("set influence model=none"), "no error");
 }
 
+TEST(PoseOperations, poses_of_limbs_keep_what_is_bound_and_may_stay_in_place) {
+  const Scene before = bound_scene();
+  const std::string turn = "pose rotate lattice=box about=1,1,0 angle=90 axis=0,0,1";
+  const Scene after = done(before, turn);
+  EXPECT_LT(glm::distance(subdivision_lattice_in(after, "box").pose[0], glm::dvec3(2, 0, 0)),
+            1e-15);
+  EXPECT_EQ(after.bound.at({"m", "box"}).binding, before.bound.at({"m", "box"}).binding);
+  const Scene copy = done(before, turn + " output=other");
+  EXPECT_TRUE(subdivision_lattice_in(copy, "box").pose.empty());
+  EXPECT_EQ(subdivision_lattice_in(copy, "other").pose, subdivision_lattice_in(after, "box").pose);
+  const Scene still =
+      done(before, "pose bend lattice=box from=0,0,0 to=1,0,0 towards=0,1,0 angle=0");
+  EXPECT_TRUE(subdivision_lattice_in(still, "box").pose.empty());
+}
+
 TEST(PoseOperations, save_deformed_writes_what_the_bound_lattices_do_and_leaves_the_scene) {
   std::string all = "0";
   for (int i = 1; i < 27; ++i) {

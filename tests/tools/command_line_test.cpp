@@ -13,18 +13,22 @@ class CommandLine : public CommandLineTest {};
 TEST_F(CommandLine, names_the_commands_when_it_knows_none_of_that_name) {
   EXPECT_EQ(refusal({"bogus"}, 2),
             "there is no command 'bogus', only: new, convert, refine, extrude, attach, split, "
-            "delete, merge, weld, mirror, transform, relax, crease, bind, deform, densify, info, "
-            "check, eval, pull, weights, render");
-  EXPECT_EQ(refusal({"new", "teapot", "-o", "a.json"}, 2),
-            "there is no command 'teapot', only: ogrid, annulus, torus, sphere, star, barbell, "
-            "junction, limb, bezier, bspline, nurbs, thb, box, cylinder");
+            "delete, merge, weld, mirror, transform, relax, crease, pose, bind, deform, densify, "
+            "info, check, "
+            "eval, pull, weights, render");
+  EXPECT_EQ(
+      refusal({"new", "teapot", "-o", "a.json"}, 2),
+      "there is no command 'teapot', only: box, cylinder, ogrid, annulus, torus, sphere, star, "
+      "barbell, junction, limb, bezier, bspline, nurbs, thb");
   EXPECT_EQ(refusal({}, 2),
             "a command is missing, one of: new, convert, refine, extrude, attach, split, "
-            "delete, merge, weld, mirror, transform, relax, crease, bind, deform, densify, info, "
-            "check, eval, pull, weights, render");
-  EXPECT_EQ(refusal({"new"}, 2),
-            "a command is missing, one of: ogrid, annulus, torus, sphere, star, barbell, junction, "
-            "limb, bezier, bspline, nurbs, thb, box, cylinder");
+            "delete, merge, weld, mirror, transform, relax, crease, pose, bind, deform, densify, "
+            "info, check, "
+            "eval, pull, weights, render");
+  EXPECT_EQ(
+      refusal({"new"}, 2),
+      "a command is missing, one of: box, cylinder, ogrid, annulus, torus, sphere, star, barbell, "
+      "junction, limb, bezier, bspline, nurbs, thb");
 }
 
 TEST_F(CommandLine, names_the_option_or_word_that_it_does_not_expect) {
