@@ -109,6 +109,29 @@ TEST(RationalInjectivity, of_solids_with_collapsed_faces_is_certified) {
   }
 }
 
+TEST(RationalInjectivity, of_solids_with_collapsed_faces_has_a_largest_step) {
+  for (const bool is_ball : {false, true}) {
+    const TensorLattice solid = round_solid(is_ball);
+    const InjectivityCheck check = check_of(solid);
+    for (const bool is_parallel : {true, false}) {
+      Points motion(solid.rest.size(), glm::dvec3(0));
+      motion[3] = -solid.rest[3] + glm::dvec3(0, 0, 0.2);
+      motion[5] = is_parallel ? glm::dvec3(0) : glm::dvec3(0.2, -0.1, 0.3);
+      const SafeStep found = check.largest_step(solid.rest, motion);
+      EXPECT_TRUE(found.is_tight);
+      EXPECT_GT(found.step, 0.05);
+      for (const double part : {0.999, 1.001}) {
+        Points pose = solid.rest;
+        for (std::size_t i = 0; i < pose.size(); ++i) {
+          pose[i] += part * found.step * motion[i];
+        }
+        EXPECT_EQ(check.local(pose).verdict, part < 1 ? Verdict::Certified : Verdict::Folded)
+            << is_ball << is_parallel;
+      }
+    }
+  }
+}
+
 TEST(RationalInjectivity, sees_collapse_only_where_weights_keep_it) {
   TensorLattice solid = round_solid(false);
   solid.weights[2] = 0.9;  // in the middle of the angle at radius 0, at one height only
