@@ -26,6 +26,7 @@ namespace {
 constexpr double kRounding = 1e-12;
 constexpr std::size_t kBatch = 128;  // faces between two looks at what was found
 constexpr std::size_t kGrain = 16;
+constexpr std::size_t kMostPatience = 100;  // undecided pairs
 
 double largest_coordinate(std::span<const glm::dvec3> pose, std::size_t n_controls) {
   if (pose.size() != n_controls) {
@@ -69,9 +70,9 @@ class BoundaryTester {
       progress.update("boundary", static_cast<double>(begin) / static_cast<double>(n));
       const std::size_t end = std::min(begin + kBatch, n);
       std::vector<FaceFindings> found(end - begin);
-      // Once it crosses itself somewhere, what else can hardly be told is of less interest.
-      const std::size_t most_boxes =
-          report.crossings.empty() ? options_.most_boxes : options_.most_boxes / 16;
+      // Once it is not simple, pairs that can hardly be told apart are of less interest.
+      const bool is_spent = !report.crossings.empty() || report.undecided.size() >= kMostPatience;
+      const std::size_t most_boxes = is_spent ? options_.most_boxes / 16 : options_.most_boxes;
       parallel_ranges(found.size(), kGrain, [&](std::size_t from, std::size_t to) {
         FacePairTester tester(mesh_, tolerance_, most_boxes);
         for (std::size_t i = from; i < to; ++i) {
