@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "deform/evaluate/displace.h"
@@ -31,6 +32,9 @@ using Json = nlohmann::ordered_json;
 
 /// Steps that move a point farther than this many diagonals of the lattice count as unbounded.
 constexpr double kFarthest = 1e6;
+
+/// Pairs of faces that are listed.
+constexpr std::size_t kMostShown = 100;
 
 /// All that is found out.
 struct CheckReport {
@@ -94,8 +98,10 @@ void add_boundary(const BoundaryReport& report, Json& json) {
     json["crossings"].push_back({{"point", json_of(crossing.point)},
                                  {"places", {json_of(crossing.a), json_of(crossing.b)}}});
   }
+  json["undecided_pairs"] = report.undecided.size();
   json["undecided_faces"] = Json::array();
-  for (const UndecidedFaces& pair : report.undecided) {
+  const std::size_t n_shown = std::min(report.undecided.size(), kMostShown);
+  for (const UndecidedFaces& pair : std::span(report.undecided).first(n_shown)) {
     json["undecided_faces"].push_back({{{"patch", pair.patches[0]}, {"face", pair.faces[0]}},
                                        {{"patch", pair.patches[1]}, {"face", pair.faces[1]}}});
   }

@@ -26,6 +26,8 @@ namespace {
 constexpr double kRounding = 1e-12;
 constexpr std::size_t kBatch = 128;  // faces between two looks at what was found
 constexpr std::size_t kGrain = 16;
+constexpr std::size_t kMostPairs = 8;       // of one face that may take all the boxes they may
+constexpr std::size_t kMostPatience = 100;  // undecided pairs
 
 double largest_coordinate(std::span<const glm::dvec3> pose, std::size_t n_controls) {
   if (pose.size() != n_controls) {
@@ -69,13 +71,13 @@ class BoundaryTester {
       progress.update("boundary", static_cast<double>(begin) / static_cast<double>(n));
       const std::size_t end = std::min(begin + kBatch, n);
       std::vector<FaceFindings> found(end - begin);
-      // Once it crosses itself somewhere, what else can hardly be told is of less interest.
-      const std::size_t most_boxes =
-          report.crossings.empty() ? options_.most_boxes : options_.most_boxes / 16;
+      // Once it is not simple, pairs that can hardly be told apart are of less interest.
+      const bool is_spent = !report.crossings.empty() || report.undecided.size() >= kMostPatience;
+      const std::size_t most_boxes = is_spent ? options_.most_boxes / 16 : options_.most_boxes;
       parallel_ranges(found.size(), kGrain, [&](std::size_t from, std::size_t to) {
-        FacePairTester tester(mesh_, tolerance_, most_boxes);
+        FacePairTester tester(mesh_, tolerance_);
         for (std::size_t i = from; i < to; ++i) {
-          test_face(begin + i, tester, found[i]);
+          test_face(begin + i, tester, most_boxes, found[i]);
         }
       });
       for (const FaceFindings& of_face : found) {
@@ -84,8 +86,11 @@ class BoundaryTester {
         report.undecided.insert(report.undecided.end(), of_face.undecided.begin(),
                                 of_face.undecided.end());
       }
-      if (report.crossings.size() >= options_.most_crossings ||
-          report.undecided.size() >= options_.most_undecided) {
+      if (report.crossings.size() >= options_.most_crossings) {
+        report.crossings.resize(options_.most_crossings);
+        return;
+      }
+      if (report.undecided.size() >= options_.most_undecided) {
         return;
       }
     }
@@ -103,7 +108,8 @@ class BoundaryTester {
     return boxes;
   }
 
-  void test_face(std::size_t face, FacePairTester& tester, FaceFindings& found) const {
+  void test_face(std::size_t face, FacePairTester& tester, std::size_t most_boxes,
+                 FaceFindings& found) const {
     std::vector<std::size_t> others;
     tree_.visit_overlapping(tree_.box(face), [&](std::size_t other) {
       if (other >= face) {
@@ -111,8 +117,10 @@ class BoundaryTester {
       }
     });
     std::sort(others.begin(), others.end());
+    std::size_t boxes_left = kMostPairs * most_boxes;
     for (const std::size_t other : others) {
-      const FacePairResult result = tester.test(face, other);
+      const FacePairResult result = tester.test(face, other, std::min(most_boxes, boxes_left));
+      boxes_left -= std::min(result.n_boxes, boxes_left);
       if (result.crossing) {
         const auto& [at, at_other] = *result.crossing;
         found.crossings.push_back({place_of(mesh_, face, at), place_of(mesh_, other, at_other),

@@ -52,10 +52,10 @@ struct BoundaryReport {
 };
 
 struct BoundaryOptions {
-  std::size_t most_boxes = 4000;      ///< pairs of parts of two faces that may be looked at; once
-                                      ///< a crossing is known, a sixteenth
-  std::size_t most_crossings = 100;   ///< after which it stops
-  std::size_t most_undecided = 1000;  ///< the same
+  std::size_t most_boxes = 4000;       ///< pairs of parts of two faces that may be looked at; once
+                                       ///< the boundary is surely not certified, a sixteenth
+  std::size_t most_crossings = 100;    ///< after which it stops
+  std::size_t most_undecided = 20000;  ///< the same
 };
 
 /// Looks at all pairs of faces whose boxes overlap. pose: #controls; pose_weights: those of the

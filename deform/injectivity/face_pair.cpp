@@ -71,8 +71,8 @@ bool is_finest(const ParameterRectangle& rectangle) {
 
 }  // namespace
 
-FacePairTester::FacePairTester(const BoundaryMesh& mesh, double tolerance, std::size_t most_boxes)
-    : mesh_(mesh), tolerance_(tolerance), most_boxes_(most_boxes) {}
+FacePairTester::FacePairTester(const BoundaryMesh& mesh, double tolerance)
+    : mesh_(mesh), tolerance_(tolerance) {}
 
 FacePairTester::Part FacePairTester::part_of(std::size_t face, const ParameterRectangle& where) {
   Part part{face, where, {}, {}};
@@ -386,7 +386,7 @@ bool FacePairTester::is_real_crossing(std::size_t a, const glm::dvec2& at_a, std
   return beta * beta * curvature * residual < 0.5 && 2 * beta * residual < kInside;
 }
 
-FacePairResult FacePairTester::test(std::size_t a, std::size_t b) {
+FacePairResult FacePairTester::test(std::size_t a, std::size_t b, std::size_t most_boxes) {
   struct Pair {
     Part a;
     Part b;
@@ -397,7 +397,7 @@ FacePairResult FacePairTester::test(std::size_t a, std::size_t b) {
   FacePairResult result;
   std::size_t n_failed = 0;
   bool is_open = false;
-  for (std::size_t n_boxes = 0; !open.empty(); ++n_boxes) {
+  for (; !open.empty(); ++result.n_boxes) {
     const Pair pair = std::move(open.back());
     open.pop_back();
     if (is_apart(pair.a, pair.b, pair.is_one)) {
@@ -406,7 +406,7 @@ FacePairResult FacePairTester::test(std::size_t a, std::size_t b) {
     if (!pair.is_one && ++n_failed % kCrossingEvery == 0) {
       result.crossing = find_crossing(pair.a, pair.b);
     }
-    if (result.crossing || n_boxes >= most_boxes_) {
+    if (result.crossing || result.n_boxes >= most_boxes) {
       return result;
     }
     if (is_finest(pair.a.where) || is_finest(pair.b.where)) {

@@ -16,6 +16,7 @@ namespace espalier {
 /// What is known of a pair of faces.
 struct FacePairResult {
   bool is_apart = false;
+  std::size_t n_boxes = 0;  ///< pairs of parts that were looked at
   /// If not: places of the two where they surely pass through each other, if any were found.
   std::optional<std::array<glm::dvec2, 2>> crossing;
 };
@@ -31,10 +32,11 @@ struct FacePairResult {
 /// Certain within the rounding of control points. Keeps memory from call to call: one a thread.
 class FacePairTester {
  public:
-  /// tolerance: of a control point's coordinate; most_boxes: pairs of parts that may be looked at.
-  FacePairTester(const BoundaryMesh& mesh, double tolerance, std::size_t most_boxes);
+  /// tolerance: of a control point's coordinate.
+  FacePairTester(const BoundaryMesh& mesh, double tolerance);
 
-  [[nodiscard]] FacePairResult test(std::size_t a, std::size_t b);
+  /// most_boxes: pairs of parts that may be looked at, besides the first.
+  [[nodiscard]] FacePairResult test(std::size_t a, std::size_t b, std::size_t most_boxes);
 
  private:
   /// Part of a face.
@@ -67,7 +69,6 @@ class FacePairTester {
 
   const BoundaryMesh& mesh_;
   double tolerance_;
-  std::size_t most_boxes_;
   std::array<std::vector<glm::dvec3>, 2> slopes_;  // across a seam, and along it
   std::vector<glm::dvec3> room_;
 };

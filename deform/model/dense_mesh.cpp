@@ -18,6 +18,7 @@
 #include "deform/model/normals.h"
 #include "deform/model/polygon_cuts.h"
 #include "lattice/core/error.h"
+#include "lattice/topology/face_triangles.h"
 
 namespace espalier {
 namespace {
@@ -56,7 +57,7 @@ double least_faces(const DenseMesh& mesh, double longest) {
     for (const DenseCorner& corner : mesh.faces[face]) {
       loop.push_back(mesh.points[static_cast<std::size_t>(corner.point)]);
     }
-    area += 0.5 * glm::length(loop_area(loop));
+    area += 0.5 * glm::length(area_vector(loop));
   }
   return area / (longest * longest);
 }

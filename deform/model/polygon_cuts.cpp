@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "lattice/topology/face_triangles.h"
+
 namespace espalier {
 namespace {
 
@@ -34,16 +36,8 @@ double ear_quality(std::span<const glm::dvec3> loop, const std::vector<std::size
 
 }  // namespace
 
-glm::dvec3 loop_area(std::span<const glm::dvec3> loop) {
-  glm::dvec3 area(0);
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    area += glm::cross(loop[i] - loop[0], loop[i + 1] - loop[0]);
-  }
-  return area;
-}
-
 bool is_seen_from_middle(std::span<const glm::dvec3> loop) {
-  const glm::dvec3 normal = loop_area(loop);
+  const glm::dvec3 normal = area_vector(loop);
   glm::dvec3 middle(0);
   for (const glm::dvec3& p : loop) {
     middle += p / static_cast<double>(loop.size());
@@ -57,7 +51,7 @@ bool is_seen_from_middle(std::span<const glm::dvec3> loop) {
 }
 
 std::vector<std::array<std::size_t, 3>> ear_triangles(std::span<const glm::dvec3> loop) {
-  const glm::dvec3 normal = loop_area(loop);
+  const glm::dvec3 normal = area_vector(loop);
   std::vector<std::size_t> left(loop.size());
   for (std::size_t i = 0; i < left.size(); ++i) {
     left[i] = i;

@@ -10,9 +10,6 @@
 
 namespace espalier {
 
-/// Twice the area vector of a loop.
-[[nodiscard]] glm::dvec3 loop_area(std::span<const glm::dvec3> loop);
-
 /// Whether the mean of the points sees every edge from inside.
 [[nodiscard]] bool is_seen_from_middle(std::span<const glm::dvec3> loop);
 

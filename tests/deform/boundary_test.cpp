@@ -118,6 +118,18 @@ TEST(Boundary, of_a_bar_crosses_itself_when_its_ends_meet) {
   }
 }
 
+TEST(Boundary, of_a_bar_that_also_lies_in_itself_is_seen_to_cross) {
+  const Volume volume = bar();
+  auto pose = bent(volume, 7.5);
+  for (std::size_t i = 0; i < pose.size(); ++i) {
+    pose[i].z = volume.rest_controls()[i].z;  // its flat sides lie in two planes
+  }
+  const BoundaryReport report = check_boundary(volume, pose);
+  EXPECT_EQ(report.verdict, BoundaryVerdict::Intersecting);
+  EXPECT_FALSE(report.undecided.empty());
+  expect_true_crossings(volume, pose, report);
+}
+
 TEST(Boundary, that_touches_itself_without_crossing_is_undecided) {
   const Volume volume = test::spline_volume({6, 1, 1}, test::grid_points({6, 1, 1}));
   // Folded like a U with its legs in contact: x = 4…6 goes back over x = 0…2, one unit higher.

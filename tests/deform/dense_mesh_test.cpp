@@ -14,6 +14,7 @@
 #include "deform/model/polygon_cuts.h"
 #include "lattice/core/error.h"
 #include "lattice/osd/refine_surface.h"
+#include "lattice/topology/face_triangles.h"
 
 namespace espalier {
 namespace {
@@ -67,7 +68,7 @@ std::vector<glm::dvec3> loop_of(const DenseMesh& mesh, std::size_t face) {
 std::map<std::int32_t, glm::dvec3> areas(const DenseMesh& mesh) {
   std::map<std::int32_t, glm::dvec3> sums;
   for (std::size_t face = 0; face < mesh.faces.n_rows(); ++face) {
-    sums[mesh.parents[face]] += loop_area(loop_of(mesh, face));
+    sums[mesh.parents[face]] += area_vector(loop_of(mesh, face));
   }
   return sums;
 }
@@ -119,7 +120,7 @@ TEST(DenseMesh, halves_long_edges_and_keeps_shape_and_attributes) {
         EXPECT_LT(glm::distance(area, old_areas.at(face)), 1e-12);
       }
       for (std::size_t face = 0; face < mesh.faces.n_rows(); ++face) {
-        EXPECT_GT(glm::dot(loop_area(loop_of(mesh, face)), old_areas.at(mesh.parents[face])), 0);
+        EXPECT_GT(glm::dot(area_vector(loop_of(mesh, face)), old_areas.at(mesh.parents[face])), 0);
         for (const DenseCorner& corner : mesh.faces[face]) {
           const glm::dvec3& p = mesh.points[static_cast<std::size_t>(corner.point)];
           const glm::dvec3& t = mesh.textures[static_cast<std::size_t>(corner.texture)];
@@ -186,7 +187,7 @@ TEST(DenseMesh, cuts_concave_polygons_within_themselves) {
   const DenseMesh mesh = densified(before, DensifyMethod::Midpoint, 0.7);
   double area = 0;
   for (std::size_t face = 0; face < mesh.faces.n_rows(); ++face) {
-    const glm::dvec3 part = loop_area(loop_of(mesh, face));
+    const glm::dvec3 part = area_vector(loop_of(mesh, face));
     EXPECT_GT(part.z, 0);
     area += part.z;
   }
@@ -284,7 +285,7 @@ TEST(EarTriangles, fill_random_star_shaped_and_comb_polygons) {
     for (const auto& [a, b, c] : ear_triangles(loop)) {
       area += std::abs(glm::cross(loop[b] - loop[a], loop[c] - loop[a]).z);
     }
-    EXPECT_NEAR(area, loop_area(loop).z, 1e-12) << n;
+    EXPECT_NEAR(area, area_vector(loop).z, 1e-12) << n;
   }
 }
 

@@ -11,6 +11,7 @@
 #include "deform/model/polygon_cuts.h"
 #include "deform/scene/densify.h"
 #include "lattice/core/error.h"
+#include "lattice/topology/face_triangles.h"
 #include "tests/deform/odd_obj_files.h"
 #include "tests/support/spline_volume.h"
 
@@ -30,7 +31,7 @@ glm::dvec3 area_of(const Model& model) {
     for (const std::int32_t i : model.faces()[face]) {
       loop.push_back(model.points()[static_cast<std::size_t>(i)]);
     }
-    sum += loop_area(loop);
+    sum += area_vector(loop);
   }
   return sum;
 }
