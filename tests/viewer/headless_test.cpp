@@ -65,6 +65,22 @@ TEST_F(HeadlessTest, a_file_is_opened_by_typing_its_path_into_the_panel) {
   EXPECT_TRUE(std::filesystem::exists(path("lattice_bent.json")));
 }
 
+TEST_F(HeadlessTest, enter_in_the_palette_opens_a_form_whose_preview_goes_with_it) {
+  const auto count_amber = [](const Picture& picture) {
+    int n = 0;
+    for (int y = 0; y < 560; ++y) {
+      for (int x = 250; x < 400; ++x) {
+        const auto pixel = picture.at(x, y);
+        n += pixel[0] > 200 && pixel[1] > 120 && pixel[1] < 210 && pixel[2] < 90 ? 1 : 0;
+      }
+    }
+    return n;
+  };
+  const std::string open_form = "key f3\ntype new torus\nkey enter\n";
+  EXPECT_GT(count_amber(run(open_form)), 200);
+  EXPECT_EQ(count_amber(run(open_form + "key escape")), 0);
+}
+
 TEST_F(HeadlessTest, an_error_names_the_line_of_the_script) {
   try {
     (void)run("key kp1\nopen path=nothing.obj");

@@ -91,6 +91,20 @@ TEST_F(SessionHandlingTest,
   }
 }
 
+TEST_F(SessionHandlingTest, a_click_on_the_gizmo_selects_what_is_behind_it) {
+  make("new box output=a cells=2,1,1 max=2,1,1");
+  press({"ctrl+3"});
+  click({2, 1, 1});
+  ASSERT_EQ(session_.selection().size(), 1u);
+  const std::string before = session_.journal().text();
+  ASSERT_TRUE(session_.gizmo());
+  click(session_.gizmo()->pivot);  // the middle handle is there, and so is the point
+  EXPECT_FALSE(session_.transform());
+  EXPECT_EQ(session_.selection().size(), 1u);
+  session_.handle(MouseMove{pixel_of({2, 1, 1})});
+  EXPECT_EQ(session_.journal().text(), before);
+}
+
 TEST_F(SessionHandlingTest, the_gizmo_shows_what_was_done_last_and_rings_turn) {
   make("new box output=a");
   press({"ctrl+3", "a", "r", "escape"});

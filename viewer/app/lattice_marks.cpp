@@ -23,8 +23,8 @@ constexpr std::array<glm::vec3, 4> kAxes = {glm::vec3{0.93F, 0.30F, 0.33F},
                                             {0.30F, 0.52F, 0.98F},
                                             {0.85F, 0.86F, 0.88F}};
 constexpr std::array<glm::vec3, 6> kLevels = {
-    glm::vec3{0.16F, 0.20F, 0.30F}, {0.20F, 0.62F, 0.86F}, {0.26F, 0.76F, 0.52F},
-    {0.86F, 0.80F, 0.28F},          {0.93F, 0.52F, 0.28F}, {0.80F, 0.40F, 0.86F}};
+    glm::vec3{0.16F, 0.20F, 0.30F}, {0.85F, 0.42F, 0.85F}, {0.30F, 0.80F, 0.90F},
+    {0.90F, 0.86F, 0.40F},          {0.26F, 0.76F, 0.62F}, {0.62F, 0.50F, 0.95F}};
 
 std::vector<glm::vec3> in_frame(const DrawingFrame& frame, std::span<const glm::dvec3> points) {
   std::vector<glm::vec3> drawn;
@@ -69,7 +69,9 @@ LineSet cage_of(const Session& session) {
     const auto ends = elements.edges[edge];
     const bool is_chosen = session.element_kind() != ElementKind::Vertex &&
                            chosen.contains(ends[0]) && chosen.contains(ends[1]);
+    const std::int32_t level = elements.levels[static_cast<std::size_t>(ends[0])];
     lines.colors.push_back(is_chosen                           ? kSelected
+                           : level > 0                         ? level_color(level)
                            : elements.edge_sharpness[edge] > 0 ? kSharpRed
                            : is_outer[edge]                    ? kBoundaryGreen
                                                                : kInnerBlue);

@@ -13,7 +13,7 @@ namespace espalier::viewer {
 
 /// In drawing units; empty where there is nothing to see.
 struct LatticeMarks {
-  LineSet cage;       ///< between control points: sharp red, outer green, inner blue
+  LineSet cage;  ///< between control points: sharp red, outer green, inner blue; by level from 1
   PointSet controls;  ///< yellow where they are corners; by level in a hierarchy
   LineSet rest;       ///< in Pose mode, faint: where the lattice was
   LineSet ghost;      ///< of cells to come

@@ -63,7 +63,11 @@ void Viewer::draw(double seconds) {
   state_.frame_seconds = seconds;
   gui_.begin(view.width, view.height, seconds);
   for (const Action& action : draw_panels(session_, state_)) {
-    action(session_);
+    try {
+      action(session_);
+    } catch (const Error& error) {
+      session_.say(error.what());
+    }
   }
   // What could not be saved is not lost.
   if (std::exchange(state_.saves_and_quits, false)) {
