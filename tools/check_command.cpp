@@ -19,6 +19,7 @@
 #include "deform/model/volume_change.h"
 #include "deform/scene/bind.h"
 #include "deform/scene/indexed_vector.h"
+#include "deform/scene/lattice_parameters.h"
 #include "deform/scene/pose.h"
 #include "lattice/core/error.h"
 #include "lattice/io/lattice.h"
@@ -318,11 +319,7 @@ Command check_command() {
                     "largest t for which moving by t times that stays free of folds; may repeat, "
                     "then all move together",
             .is_list = true},
-           {.name = "freeze",
-            .type = ParameterType::Text,
-            .help = "adaptive[:TOLERANCE], or uniform:N, the lattice refined N times (default "
-                    "adaptive, 1e-5 of the lattice's diagonal)",
-            .fallback = Value(std::string("adaptive"))}},
+           freeze_parameter()},
           run};
 }
 

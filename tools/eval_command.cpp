@@ -12,6 +12,7 @@
 
 #include "deform/evaluate/displace.h"
 #include "deform/scene/bind.h"
+#include "deform/scene/lattice_parameters.h"
 #include "deform/scene/pose.h"
 #include "lattice/core/error.h"
 #include "lattice/core/file.h"
@@ -144,11 +145,7 @@ Command eval_command() {
             .help = "instead, of a bezier, bspline, nurbs or thb lattice: CSV with a header line "
                     "u,v,w of places from 0 to 1 in the whole range of its knots; the Jacobian is "
                     "by them"},
-           {.name = "freeze",
-            .type = ParameterType::Text,
-            .help = "adaptive[:TOLERANCE], or uniform:N, the lattice refined N times (default "
-                    "adaptive, 1e-5 of the lattice's diagonal)",
-            .fallback = Value(std::string("adaptive"))}},
+           freeze_parameter()},
           run,
           false};
 }

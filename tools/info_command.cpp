@@ -4,6 +4,7 @@
 #include <string>
 
 #include "deform/model/model_file.h"
+#include "deform/scene/lattice_parameters.h"
 #include "lattice/core/error.h"
 #include "lattice/io/lattice.h"
 #include "lattice/topology/validate.h"
@@ -69,10 +70,7 @@ Command info_command() {
            {.name = "model",
             .type = ParameterType::Path,
             .help = "tell too how many points of this model control points move, by level"},
-           {.name = "freeze",
-            .type = ParameterType::Text,
-            .help = "of --model: adaptive[:TOLERANCE], or uniform:N (default adaptive)",
-            .fallback = Value(std::string("adaptive"))}},
+           freeze_parameter()},
           run};
 }
 

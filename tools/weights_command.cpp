@@ -9,6 +9,7 @@
 #include "deform/evaluate/weights.h"
 #include "deform/model/model_file.h"
 #include "deform/scene/bind.h"
+#include "deform/scene/lattice_parameters.h"
 #include "lattice/core/file.h"
 #include "lattice/io/lattice.h"
 #include "lattice/io/matrix_market.h"
@@ -73,11 +74,7 @@ Command weights_command() {
             .type = ParameterType::Path,
             .help = "the lattice at rest (.json, .ovm)",
             .is_required = true},
-           {.name = "freeze",
-            .type = ParameterType::Text,
-            .help = "adaptive[:TOLERANCE], or uniform:N, the lattice refined N times (default "
-                    "adaptive, 1e-5 of the lattice's diagonal)",
-            .fallback = Value(std::string("adaptive"))},
+           freeze_parameter(),
            {.name = "output",
             .type = ParameterType::Path,
             .help = "the matrix as MatrixMarket (.mtx), rows and columns from 1",

@@ -13,6 +13,7 @@
 #include "deform/model/point_selection.h"
 #include "deform/scene/bind.h"
 #include "deform/scene/densify.h"
+#include "deform/scene/lattice_parameters.h"
 #include "deform/scene/lock.h"
 #include "deform/scene/operations.h"
 #include "deform/scene/pose.h"
@@ -258,15 +259,6 @@ Parameter lattice_parameter() {
           .type = Type::Lattice,
           .help = "the lattice at rest (.json, .ovm)",
           .is_required = true};
-}
-
-Parameter freeze_parameter() {
-  return {.name = "freeze",
-          .type = Type::Text,
-          .help =
-              "adaptive[:TOLERANCE], or uniform:N, the lattice refined N times (default "
-              "adaptive, 1e-5 of the lattice's diagonal)",
-          .fallback = Value(BindOptions().freeze)};
 }
 
 Parameter outside_parameter() {

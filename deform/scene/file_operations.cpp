@@ -5,6 +5,7 @@
 
 #include "deform/model/model_file.h"
 #include "deform/scene/bind.h"
+#include "deform/scene/lattice_parameters.h"
 #include "deform/scene/operations.h"
 #include "deform/scene/pose.h"
 #include "lattice/core/error.h"
@@ -103,10 +104,7 @@ std::vector<Operation> file_operations() {
          .type = Type::Flag,
          .help = ".vtu: the frozen volume, curved, instead of the control cells"},
         {.name = "rest", .type = Type::Flag, .help = ".vtu: at rest instead of posed"},
-        {.name = "freeze",
-         .type = Type::Text,
-         .help = "of the volume: adaptive[:TOLERANCE], or uniform:N (default adaptive)",
-         .fallback = Value(std::string("adaptive"))}},
+        freeze_parameter()},
        save,
        false},
   };

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "deform/scene/bind.h"
 #include "lattice/core/error.h"
 #include "lattice/core/text_scanner.h"
 #include "lattice/io/lattice_file.h"
@@ -57,6 +58,16 @@ Parameter sharp_parameter() {
           .type = Type::Text,
           .help = "creases: auto, none, or angle:DEGREES for edges that bend more (default auto)",
           .fallback = Value(std::string("auto"))};
+}
+
+Parameter freeze_parameter() {
+  return {.name = "freeze",
+          .type = Type::Text,
+          .help =
+              "how the volume is frozen: adaptive[:TOLERANCE[:TOLERANCE_OF_DERIVATIVES]], or "
+              "uniform:N, the lattice refined N times (default adaptive, 1e-5 of the lattice's "
+              "diagonal)",
+          .fallback = Value(BindOptions().freeze)};
 }
 
 Scene add_lattice(const Scene& scene, const Arguments& arguments, CellMesh mesh,

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What operations that make lattices have in common.
+/// What operations on lattices have in common.
 
 #include <string>
 #include <vector>
@@ -16,6 +16,8 @@ namespace espalier {
 [[nodiscard]] Parameter scheme_parameter();
 [[nodiscard]] Scheme scheme_of(const Arguments& arguments, Scheme fallback);
 [[nodiscard]] Parameter sharp_parameter();
+/// "freeze", as freeze() takes it.
+[[nodiscard]] Parameter freeze_parameter();
 
 /// The scene with a new lattice named "output", its scheme and tags by "scheme" and "sharp". Throws
 /// LatticeError if the mesh is no valid lattice, ParameterError for a bad "sharp".

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "deform/model/point_selection.h"
-#include "deform/scene/bind.h"
 #include "deform/scene/index_list.h"
 #include "deform/scene/indexed_vector.h"
+#include "deform/scene/lattice_parameters.h"
 #include "lattice/core/error.h"
 #include "lattice/core/text_scanner.h"
 
@@ -256,11 +256,7 @@ std::vector<Parameter> pull_parameters() {
                      "of a thb lattice: refine under picks that cannot be met, or only by throwing "
                      "control points away, until they are"),
       {.name = "levels", .type = Type::Integer, .help = "of --refine: at most (default 8)"},
-      {.name = "freeze",
-       .type = Type::Text,
-       .help = "adaptive[:TOLERANCE], or uniform:N, the lattice refined N times (default "
-               "adaptive, 1e-5 of the lattice's diagonal)",
-       .fallback = Value(BindOptions().freeze)},
+      freeze_parameter(),
   };
 }
 
