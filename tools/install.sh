@@ -6,7 +6,7 @@ set -eu
 packages="g++ cmake ninja-build pkg-config ccache
   libosd-dev libeigen3-dev libglm-dev libfmt-dev nlohmann-json3-dev libcli11-dev libstb-dev
   libepoxy-dev libglfw3-dev libimgui-dev libegl-dev libgl1 libegl1 libegl-mesa0 libgl1-mesa-dri
-  libgtest-dev libgmock-dev libbenchmark-dev xvfb xauth xdotool"
+  libgtest-dev libgmock-dev xvfb xauth xdotool"
 
 missing=""
 for package in $packages "$@"; do

@@ -24,9 +24,11 @@ struct Section {
 };
 
 constexpr Section kSections[] = {
-    {"topology", bench_topology},     {"embedding", bench_embedding}, {"freezing", bench_freezing},
-    {"evaluation", bench_evaluation}, {"reposing", bench_reposing},   {"drags", bench_drags},
-    {"tensor", bench_tensor},         {"pulling", bench_pulling},     {"fitting", bench_fitting},
+    {"topology", bench_topology}, {"embedding", bench_embedding},
+    {"freezing", bench_freezing}, {"evaluation", bench_evaluation},
+    {"reposing", bench_reposing}, {"drags", bench_drags},
+    {"tensor", bench_tensor},     {"pulling", bench_pulling},
+    {"fitting", bench_fitting},   {"certificates", bench_certificates},
 };
 
 int run(std::span<const std::string_view> names) {

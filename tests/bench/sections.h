@@ -6,6 +6,8 @@ namespace espalier::bench {
 
 /// Building and refining complexes, to sorting and copying.
 void bench_topology();
+/// Certificates of patches, to sampling them; largest steps; the boundary, to the inside.
+void bench_certificates();
 /// Finding points in volumes, to evaluating them, and round trips.
 void bench_embedding();
 /// Making lattices round models.
