@@ -144,7 +144,7 @@ ElementGrid classify_elements(const GridFrame& frame, std::span<const Triangle> 
       n_seen,
       [&](std::size_t i) {
         const glm::dvec3 place = frame.center(frame.place(pockets.seeds[i]));
-        if (i > 0 && std::abs(winding_number(triangles, place)) < 0.5) {
+        if (i > 0 && std::abs(winding_number(place, triangles)) < 0.5) {
           is_inside[i] = 0;
         }
       },

@@ -1,5 +1,5 @@
 /// Triangles and boxes by separating axes, T. Akenine-Möller, "Fast 3D triangle-box overlap
-/// testing", 2001; winding numbers as sums of solid angles, [JKS13].
+/// testing", 2001.
 
 #include "deform/fit/surface_triangles.h"
 
@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <numeric>
 
 namespace espalier {
@@ -33,20 +32,6 @@ std::vector<std::int32_t> first_in_place(std::span<const glm::dvec3> points) {
         is_same ? first[static_cast<std::size_t>(order[i - 1])] : order[i];
   }
   return first;
-}
-
-/// Solid angle of a triangle seen from a point, over 4π; A. van Oosterom and J. Strackee, 1983.
-double solid_angle(const Triangle& triangle, const glm::dvec3& point) {
-  const glm::dvec3 a = triangle[0] - point;
-  const glm::dvec3 b = triangle[1] - point;
-  const glm::dvec3 c = triangle[2] - point;
-  const double la = glm::length(a);
-  const double lb = glm::length(b);
-  const double lc = glm::length(c);
-  const double above = glm::dot(a, glm::cross(b, c));
-  const double below =
-      la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
-  return above == 0 ? 0 : std::atan2(above, below) / (2 * std::numbers::pi);
 }
 
 }  // namespace
@@ -106,14 +91,6 @@ bool is_closed_surface(std::span<const glm::dvec3> points,
     i = end;
   }
   return !edges.empty();
-}
-
-double winding_number(std::span<const Triangle> triangles, const glm::dvec3& point) {
-  double sum = 0;
-  for (const Triangle& triangle : triangles) {
-    sum += solid_angle(triangle, point);
-  }
-  return sum;
 }
 
 bool overlaps(const Triangle& triangle, const glm::dvec3& low, const glm::dvec3& high) {

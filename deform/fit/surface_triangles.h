@@ -22,10 +22,6 @@ namespace espalier {
 [[nodiscard]] bool is_closed_surface(std::span<const glm::dvec3> points,
                                      const CompressedRows<std::int32_t>& faces);
 
-/// How often the triangles wind round a point: 1 inside a closed surface, 0 outside, between where
-/// it is open [JKS13]. O(#triangles).
-[[nodiscard]] double winding_number(std::span<const Triangle> triangles, const glm::dvec3& point);
-
 /// Whether a triangle has a point in common with a closed box. Triangles may be degenerate.
 [[nodiscard]] bool overlaps(const Triangle& triangle, const glm::dvec3& low,
                             const glm::dvec3& high);

@@ -1,5 +1,3 @@
-// Solid angles: A. van Oosterom, J. Strackee, "The solid angle of a plane triangle", 1983.
-
 #include "deform/injectivity/boundary_parts.h"
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <optional>
 
 #include "lattice/core/box.h"
+#include "lattice/topology/face_triangles.h"
 
 namespace espalier {
 namespace {
@@ -17,18 +16,9 @@ namespace {
 constexpr int kMostCuts = 16;
 constexpr int kFineness = 4;  // quadrilaterals a side that a face's volume is summed over
 
-double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const double la = glm::length(a);
-  const double lb = glm::length(b);
-  const double lc = glm::length(c);
-  return 2 *
-         std::atan2(glm::dot(a, glm::cross(b, c)),
-                    la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
-}
-
-/// Of a face seen from a point outside its hull; a face whose hull holds the point is cut first.
-/// None if the point is too near.
-std::optional<double> solid_angle(const FaceNet& net, const glm::dvec3& from, int n_cuts = 0) {
+/// Solid angle of a face seen from a point outside its hull; a face whose hull holds the point is
+/// cut first. None if the point is too near.
+std::optional<double> angle_of_face(const FaceNet& net, const glm::dvec3& from, int n_cuts = 0) {
   std::vector<glm::dvec3> points;
   net.positions(points);
   if (box_of(points).contains(from)) {
@@ -38,7 +28,7 @@ std::optional<double> solid_angle(const FaceNet& net, const glm::dvec3& from, in
     double sum = 0;
     for (int quarter = 0; quarter < 4; ++quarter) {
       const glm::dvec2 low = 0.5 * glm::dvec2(quarter & 1, quarter >> 1);
-      const auto part = solid_angle(net.part({low, low + 0.5}), from, n_cuts + 1);
+      const auto part = angle_of_face(net.part({low, low + 0.5}), from, n_cuts + 1);
       if (!part) {
         return std::nullopt;
       }
@@ -47,11 +37,9 @@ std::optional<double> solid_angle(const FaceNet& net, const glm::dvec3& from, in
     return sum;
   }
   const auto n = static_cast<std::size_t>(net.degree(0));
-  const glm::dvec3 p00 = points.front() - from;
-  const glm::dvec3 p10 = points[n] - from;
-  const glm::dvec3 p01 = points[points.size() - 1 - n] - from;
-  const glm::dvec3 p11 = points.back() - from;
-  return solid_angle(p00, p10, p11) + solid_angle(p00, p11, p01);
+  const glm::dvec3& p01 = points[points.size() - 1 - n];
+  return solid_angle(from, {points.front(), points[n], points.back()}) +
+         solid_angle(from, {points.front(), points.back(), p01});
 }
 
 /// 1 if ∂s × ∂t points out of the volume, else −1.
@@ -135,7 +123,7 @@ bool is_covered_once(const BoundaryMesh& mesh, std::span<const std::int32_t> par
       if (parts[face] == part) {
         own_volume += sign * volume_under(mesh.pose[face], from);
         box.add(mesh.pose[face].value({0.5, 0.5}));
-      } else if (const auto seen = solid_angle(mesh.pose[face], from)) {
+      } else if (const auto seen = angle_of_face(mesh.pose[face], from)) {
         angle += sign * *seen;
       } else {
         return false;

@@ -1,5 +1,3 @@
-/// Winding numbers after A. van Oosterom, J. Strackee, "The solid angle of a plane triangle", 1983.
-
 #include "lattice/topology/cell_surface.h"
 
 #include <algorithm>
@@ -30,19 +28,6 @@ SurfaceTriangle make_surface_triangle(const Triangle& corners, FaceId face, doub
     triangle.slack = tolerance + 1e-15 * longest2 / length;  // a sliver's normal is uncertain
   }
   return triangle;
-}
-
-/// Half the solid angle of a triangle.
-double half_angle(const glm::dvec3& point, const Triangle& triangle) {
-  const glm::dvec3 a = triangle[0] - point;
-  const glm::dvec3 b = triangle[1] - point;
-  const glm::dvec3 c = triangle[2] - point;
-  const double length_a = glm::length(a);
-  const double length_b = glm::length(b);
-  const double length_c = glm::length(c);
-  const double volume = glm::dot(a, glm::cross(b, c));
-  return std::atan2(volume, length_a * length_b * length_c + glm::dot(a, b) * length_c +
-                                glm::dot(b, c) * length_a + glm::dot(c, a) * length_b);
 }
 
 }  // namespace
@@ -135,9 +120,9 @@ bool CellSurface::is_beyond(std::span<const glm::dvec3> points, double depth) {
 double CellSurface::winding(const glm::dvec3& point) {
   double sum = 0;
   for (const SurfaceTriangle& triangle : triangles()) {
-    sum += half_angle(point, triangle.corners);
+    sum += solid_angle(point, triangle.corners);
   }
-  return sum / (2 * std::numbers::pi);
+  return sum / (4 * std::numbers::pi);
 }
 
 }  // namespace espalier

@@ -1,9 +1,13 @@
+// Solid angles: A. van Oosterom, J. Strackee, "The solid angle of a plane triangle", 1983.
+
 #include "lattice/topology/face_triangles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <numeric>
 
 namespace espalier {
@@ -95,6 +99,26 @@ void append_face_triangles(std::span<const glm::dvec3> loop, std::vector<Triangl
     return;
   }
   append_fan(loop, normal, true, triangles);
+}
+
+double solid_angle(const glm::dvec3& point, const Triangle& triangle) {
+  const glm::dvec3 a = triangle[0] - point;
+  const glm::dvec3 b = triangle[1] - point;
+  const glm::dvec3 c = triangle[2] - point;
+  const double la = glm::length(a);
+  const double lb = glm::length(b);
+  const double lc = glm::length(c);
+  return 2 *
+         std::atan2(glm::dot(a, glm::cross(b, c)),
+                    la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+}
+
+double winding_number(const glm::dvec3& point, std::span<const Triangle> triangles) {
+  double sum = 0;
+  for (const Triangle& triangle : triangles) {
+    sum += solid_angle(point, triangle);
+  }
+  return sum / (4 * std::numbers::pi);
 }
 
 double distance_to_segment(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b) {

@@ -29,12 +29,12 @@ TEST(SurfaceTriangles, wind_once_round_what_they_enclose) {
   const test::Surface ball = test::sphere_surface({1, 0, 0}, 2, 8);
   const auto triangles = surface_triangles(ball.points, ball.faces);
   EXPECT_TRUE(is_closed_surface(ball.points, ball.faces));
-  EXPECT_NEAR(winding_number(triangles, {1.3, 0.2, -0.4}), 1, 1e-12);
-  EXPECT_NEAR(winding_number(triangles, {4, 0.2, -0.4}), 0, 1e-12);
+  EXPECT_NEAR(winding_number({1.3, 0.2, -0.4}, triangles), 1, 1e-12);
+  EXPECT_NEAR(winding_number({4, 0.2, -0.4}, triangles), 0, 1e-12);
   const test::Surface box = test::box_surface({0, 0, 0}, {1, 1, 1});
   // The middle of a cube sees each face under a sixth of the sphere.
   const auto sides = surface_triangles(box.points, box.faces);
-  EXPECT_NEAR(winding_number(std::span(sides).first(sides.size() / 6), glm::dvec3(0.5)), 1.0 / 6,
+  EXPECT_NEAR(winding_number(glm::dvec3(0.5), std::span(sides).first(sides.size() / 6)), 1.0 / 6,
               1e-12);
 }
 
