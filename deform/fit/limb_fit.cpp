@@ -78,7 +78,7 @@ CompressedRows<std::int32_t> neighbours(std::size_t n_points,
 /// Of points, outward; none if the surface is not closed.
 std::vector<glm::dvec3> outward_normals(std::span<const glm::dvec3> points,
                                         const CompressedRows<std::int32_t>& faces) {
-  if (!is_closed(faces)) {
+  if (!is_closed(points, faces)) {
     return {};
   }
   const double sign = signed_volume(points, faces) < 0 ? -1 : 1;

@@ -5,36 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <numeric>
 
 namespace espalier {
-namespace {
-
-/// The lowest index of a point in the same place.
-std::vector<std::int32_t> first_in_place(std::span<const glm::dvec3> points) {
-  std::vector<std::int32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](std::int32_t i) {
-    const glm::dvec3& p = points[static_cast<std::size_t>(i)];
-    return std::array<double, 3>{p.x, p.y, p.z};
-  };
-  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    const auto ka = key(a);
-    const auto kb = key(b);
-    return ka != kb ? ka < kb : a < b;
-  });
-  std::vector<std::int32_t> first(points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_same = i > 0 && key(order[i]) == key(order[i - 1]);
-    first[static_cast<std::size_t>(order[i])] =
-        is_same ? first[static_cast<std::size_t>(order[i - 1])] : order[i];
-  }
-  return first;
-}
-
-}  // namespace
 
 std::vector<Triangle> surface_triangles(std::span<const glm::dvec3> points,
                                         const CompressedRows<std::int32_t>& faces) {
@@ -60,37 +33,6 @@ std::vector<Triangle> surface_triangles(std::span<const glm::dvec3> points,
     }
   }
   return triangles;
-}
-
-bool is_closed_surface(std::span<const glm::dvec3> points,
-                       const CompressedRows<std::int32_t>& faces) {
-  const std::vector<std::int32_t> first = first_in_place(points);
-  std::vector<std::array<std::int32_t, 3>> edges;  // smaller end, larger, ±1 by direction
-  edges.reserve(faces.n_values());
-  for (std::size_t face = 0; face < faces.n_rows(); ++face) {
-    const auto loop = faces[face];
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const std::int32_t a = first[static_cast<std::size_t>(loop[i])];
-      const std::int32_t b = first[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
-      if (a != b) {
-        edges.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
-      }
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t i = 0; i < edges.size();) {
-    std::int32_t sum = 0;
-    std::size_t end = i;
-    for (; end < edges.size() && edges[end][0] == edges[i][0] && edges[end][1] == edges[i][1];
-         ++end) {
-      sum += edges[end][2];
-    }
-    if (sum != 0) {
-      return false;
-    }
-    i = end;
-  }
-  return !edges.empty();
 }
 
 bool overlaps(const Triangle& triangle, const glm::dvec3& low, const glm::dvec3& high) {

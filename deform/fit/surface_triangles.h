@@ -1,6 +1,6 @@
 #pragma once
 
-/// A model's surface as triangles, and which points it encloses.
+/// A model's surface as triangles, and which boxes they meet.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -16,11 +16,6 @@ namespace espalier {
 /// as a triangle of three equal corners. points: model units; faces: loops of points, in range.
 [[nodiscard]] std::vector<Triangle> surface_triangles(std::span<const glm::dvec3> points,
                                                       const CompressedRows<std::int32_t>& faces);
-
-/// Whether the faces are closed with one outside: as many run along every edge in one direction as
-/// in the other. Points in one place count as one. O(n log n).
-[[nodiscard]] bool is_closed_surface(std::span<const glm::dvec3> points,
-                                     const CompressedRows<std::int32_t>& faces);
 
 /// Whether a triangle has a point in common with a closed box. Triangles may be degenerate.
 [[nodiscard]] bool overlaps(const Triangle& triangle, const glm::dvec3& low,

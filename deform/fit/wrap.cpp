@@ -10,6 +10,7 @@
 #include "deform/fit/element_grid.h"
 #include "deform/fit/enclose.h"
 #include "deform/fit/surface_triangles.h"
+#include "deform/model/volume_change.h"
 #include "lattice/build/offsets.h"
 #include "lattice/core/box.h"
 #include "lattice/core/error.h"
@@ -100,12 +101,12 @@ int cells_to_part(const std::vector<SharedPlace>& shared, const GridFrame& frame
 Wrap wrap(const Model& model, int n, const Progress& progress) {
   const GridFrame frame = frame_round(checked_box(model, n), n);
   const std::vector<Triangle> triangles = surface_triangles(model.points(), model.faces());
-  const bool is_closed = is_closed_surface(model.points(), model.faces());
-  CellSet cells(classify_elements(frame, triangles, is_closed, kTouch, progress));
+  const bool has_inside = is_closed(model.points(), model.faces());
+  CellSet cells(classify_elements(frame, triangles, has_inside, kTouch, progress));
   const std::vector<glm::dvec3> probes = probes_of(model, kInside * frame.step);
   Wrap result;
   result.step = frame.step;
-  result.shared = find_shared_places(cells, triangles, is_closed);
+  result.shared = find_shared_places(cells, triangles, has_inside);
   result.cells_to_part = cells_to_part(result.shared, frame, n);
   for (;;) {
     Enclosure enclosure = enclose(cells.make_cells(kGap), frame, probes, progress);

@@ -1,14 +1,40 @@
 #include "deform/model/volume_change.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <utility>
+#include <numeric>
 #include <vector>
 
 #include "lattice/core/box.h"
 
 namespace espalier {
+namespace {
+
+/// The lowest index of a point in the same place.
+std::vector<std::int32_t> first_in_place(std::span<const glm::dvec3> points) {
+  std::vector<std::int32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](std::int32_t i) {
+    const glm::dvec3& p = points[static_cast<std::size_t>(i)];
+    return std::array<double, 3>{p.x, p.y, p.z};
+  };
+  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+    const auto ka = key(a);
+    const auto kb = key(b);
+    return ka != kb ? ka < kb : a < b;
+  });
+  std::vector<std::int32_t> first(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool is_same = i > 0 && key(order[i]) == key(order[i - 1]);
+    first[static_cast<std::size_t>(order[i])] =
+        is_same ? first[static_cast<std::size_t>(order[i - 1])] : order[i];
+  }
+  return first;
+}
+
+}  // namespace
 
 double signed_volume(std::span<const glm::dvec3> points,
                      const CompressedRows<std::int32_t>& faces) {
@@ -25,26 +51,40 @@ double signed_volume(std::span<const glm::dvec3> points,
   return sum / 6;
 }
 
-bool is_closed(const CompressedRows<std::int32_t>& faces) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> forward;
-  std::vector<std::pair<std::int32_t, std::int32_t>> backward;
-  for (std::size_t f = 0; f < faces.n_rows(); ++f) {
-    const auto loop = faces[f];
+bool is_closed(std::span<const glm::dvec3> points, const CompressedRows<std::int32_t>& faces) {
+  const std::vector<std::int32_t> first = first_in_place(points);
+  std::vector<std::array<std::int32_t, 3>> edges;  // smaller end, larger, ±1 by direction
+  edges.reserve(faces.n_values());
+  for (std::size_t face = 0; face < faces.n_rows(); ++face) {
+    const auto loop = faces[face];
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const std::int32_t next = loop[(i + 1) % loop.size()];
-      forward.emplace_back(loop[i], next);
-      backward.emplace_back(next, loop[i]);
+      const std::int32_t a = first[static_cast<std::size_t>(loop[i])];
+      const std::int32_t b = first[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
+      if (a != b) {
+        edges.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
+      }
     }
   }
-  std::sort(forward.begin(), forward.end());
-  std::sort(backward.begin(), backward.end());
-  return !forward.empty() && forward == backward;
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0; i < edges.size();) {
+    std::int32_t sum = 0;
+    std::size_t end = i;
+    for (; end < edges.size() && edges[end][0] == edges[i][0] && edges[end][1] == edges[i][1];
+         ++end) {
+      sum += edges[end][2];
+    }
+    if (sum != 0) {
+      return false;
+    }
+    i = end;
+  }
+  return !edges.empty();
 }
 
 std::optional<double> volume_change(std::span<const glm::dvec3> before,
                                     std::span<const glm::dvec3> after,
                                     const CompressedRows<std::int32_t>& faces) {
-  if (!is_closed(faces)) {
+  if (!is_closed(before, faces)) {
     return std::nullopt;
   }
   constexpr double kNothing = 1e-12;  // of the cube of the extent

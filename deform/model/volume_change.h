@@ -17,9 +17,10 @@ namespace espalier {
 [[nodiscard]] double signed_volume(std::span<const glm::dvec3> points,
                                    const CompressedRows<std::int32_t>& faces);
 
-/// Whether every edge of the faces is run through as often one way as the other, so that they
-/// enclose something; no for no faces. O(n log n).
-[[nodiscard]] bool is_closed(const CompressedRows<std::int32_t>& faces);
+/// Whether the faces are closed with one outside: as many run along every edge in one direction as
+/// in the other; no for no faces. Points in one place count as one. O(n log n).
+[[nodiscard]] bool is_closed(std::span<const glm::dvec3> points,
+                             const CompressedRows<std::int32_t>& faces);
 
 /// 100 (V' / V − 1), in per cent; none if the faces are not closed or enclose nothing at rest.
 /// before, after: #points, model units.

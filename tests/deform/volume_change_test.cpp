@@ -55,6 +55,18 @@ TEST(VolumeChange, an_affine_map_changes_the_volume_by_its_determinant) {
   EXPECT_EQ(volume_change(cube_points(), cube_points(), cube_faces()).value(), 0);
 }
 
+TEST(VolumeChange, faces_are_closed_if_every_edge_runs_both_ways_wherever_its_points_are_listed) {
+  std::vector<glm::dvec3> points = cube_points();
+  EXPECT_TRUE(is_closed(points, cube_faces()));
+  points.push_back(points[0]);
+  Faces split = cube_faces();
+  split[0][0] = 8;
+  EXPECT_TRUE(is_closed(points, split));
+  EXPECT_EQ(volume_change(points, mapped(points, [](auto& p) { return 2.0 * p; }), split), 700);
+  points[8].x -= 0.1;
+  EXPECT_FALSE(is_closed(points, split));
+}
+
 TEST(VolumeChange, what_is_open_or_twisted_or_flat_encloses_nothing) {
   Faces open;
   Faces twisted;
