@@ -21,11 +21,7 @@ std::vector<Triangle> surface_triangles(std::span<const glm::dvec3> points,
       loop.push_back(points[static_cast<std::size_t>(point)]);
       is_used[static_cast<std::size_t>(point)] = 1;
     }
-    if (loop.size() == 3) {
-      triangles.push_back({loop[0], loop[1], loop[2]});
-    } else {
-      append_face_triangles(loop, triangles);
-    }
+    append_face_triangles(loop, triangles);
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (is_used[i] == 0) {

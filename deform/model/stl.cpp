@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string_view>
 #include <utility>
 
 #include "deform/model/encoded_number.h"
+#include "deform/model/same_place.h"
 #include "lattice/core/text_scanner.h"
 
 namespace espalier {
@@ -181,21 +181,7 @@ bool is_text(std::string_view bytes) {
 
 /// Numbers the different corners in the order in which they appear.
 void merge_corners(const std::vector<glm::dvec3>& corners, ModelLayout& layout) {
-  const auto key = [&](std::int32_t i) {
-    const glm::dvec3& p = corners[static_cast<std::size_t>(i)];
-    return std::make_tuple(p.x, p.y, p.z);
-  };
-  std::vector<std::int32_t> order(corners.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, [&](std::int32_t a, std::int32_t b) {
-    return std::make_pair(key(a), a) < std::make_pair(key(b), b);
-  });
-  std::vector<std::int32_t> first(corners.size());  // corner at the same place
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_same = i > 0 && key(order[i]) == key(order[i - 1]);
-    first[static_cast<std::size_t>(order[i])] =
-        is_same ? first[static_cast<std::size_t>(order[i - 1])] : order[i];
-  }
+  const std::vector<std::int32_t> first = first_in_place(corners);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const auto earlier = static_cast<std::size_t>(first[i]);
     if (earlier == i) {
