@@ -4,10 +4,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <numeric>
 #include <optional>
 
 #include "lattice/core/box.h"
+#include "lattice/core/disjoint_sets.h"
 #include "lattice/topology/face_triangles.h"
 
 namespace espalier {
@@ -68,35 +68,25 @@ double volume_under(const FaceNet& net, const glm::dvec3& from) {
 }  // namespace
 
 std::vector<std::int32_t> boundary_parts(const BoundaryMesh& mesh) {
-  std::vector<std::int32_t> parent(mesh.faces.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](std::int32_t i) {
-    while (parent[static_cast<std::size_t>(i)] != i) {
-      auto& up = parent[static_cast<std::size_t>(i)];
-      i = up = parent[static_cast<std::size_t>(up)];
-    }
-    return i;
-  };
-  std::vector<std::vector<std::int32_t>> faces_of_seam;
+  DisjointSets sets(mesh.faces.size());
+  std::vector<std::vector<std::size_t>> faces_of_seam;
   for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
     for (const SeamUse& use : mesh.seams[face]) {
       const auto seam = static_cast<std::size_t>(use.seam);
       faces_of_seam.resize(std::max(faces_of_seam.size(), seam + 1));
-      faces_of_seam[seam].push_back(static_cast<std::int32_t>(face));
+      faces_of_seam[seam].push_back(face);
     }
   }
-  for (const std::vector<std::int32_t>& faces : faces_of_seam) {
+  for (const std::vector<std::size_t>& faces : faces_of_seam) {
     if (faces.size() == 2) {
-      const std::int32_t a = root(faces[0]);
-      const std::int32_t b = root(faces[1]);
-      parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+      sets.join(faces[0], faces[1]);
     }
   }
   std::vector<std::int32_t> numbers(mesh.faces.size(), -1);
   std::vector<std::int32_t> parts;
   std::int32_t n_parts = 0;
   for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
-    std::int32_t& number = numbers[static_cast<std::size_t>(root(static_cast<std::int32_t>(face)))];
+    std::int32_t& number = numbers[sets.first(face)];
     number = number < 0 ? n_parts++ : number;
     parts.push_back(number);
   }

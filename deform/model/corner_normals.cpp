@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "deform/model/normals.h"
 #include "deform/model/pairs.h"
+#include "lattice/core/disjoint_sets.h"
 #include "lattice/core/text_scanner.h"
 
 namespace espalier {
@@ -42,8 +42,7 @@ class CornerGroups {
       : faces_(faces),
         sharp_(sharp),
         least_cosine_(std::cos(sharp.angle * std::numbers::pi / 180)),
-        parents_(faces.n_values()) {
-    std::iota(parents_.begin(), parents_.end(), 0);
+        sets_(faces.n_values()) {
     for (std::size_t face = 0; face < faces.n_rows(); ++face) {
       directions_.push_back(unit_or_zero(area_vector(points, faces[face])));
       faces_of_.insert(faces_of_.end(), faces[face].size(), static_cast<std::int32_t>(face));
@@ -67,21 +66,16 @@ class CornerGroups {
           break;
         }
         if (is_smooth(spokes_[k].second, spokes_[i].second)) {
-          const std::int32_t a = root(spokes_[k].second);
-          const std::int32_t b = root(spokes_[i].second);
-          parents_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+          sets_.join(static_cast<std::size_t>(spokes_[k].second),
+                     static_cast<std::size_t>(spokes_[i].second));
         }
       }
     }
   }
 
   /// The first corner of the group that a corner is in.
-  [[nodiscard]] std::int32_t root(std::int32_t corner) {
-    while (parents_[static_cast<std::size_t>(corner)] != corner) {
-      std::int32_t& up = parents_[static_cast<std::size_t>(corner)];
-      corner = up = parents_[static_cast<std::size_t>(up)];
-    }
-    return corner;
+  [[nodiscard]] std::size_t first(std::int32_t corner) {
+    return sets_.first(static_cast<std::size_t>(corner));
   }
 
   [[nodiscard]] std::size_t face_of(std::int32_t corner) const {
@@ -107,7 +101,7 @@ class CornerGroups {
   const CompressedRows<std::int32_t>& faces_;
   const SharpEdges& sharp_;
   double least_cosine_;
-  std::vector<std::int32_t> parents_;  // of corners; the first of a group is its own
+  DisjointSets sets_;  // of corners
   std::vector<glm::dvec3> directions_;
   std::vector<std::int32_t> faces_of_;
   std::vector<std::pair<std::int32_t, std::int32_t>> spokes_;  // the other end of an edge, a corner
@@ -124,8 +118,7 @@ CornerNormals corner_normals(std::span<const glm::dvec3> points,
   for (std::size_t point = 0; point < points.size(); ++point) {
     groups.join(corners_of[point]);
     for (const std::int32_t corner : corners_of[point]) {
-      std::int32_t& normal =
-          result.of_corners[static_cast<std::size_t>(groups.root(corner))];  // of the first corner
+      std::int32_t& normal = result.of_corners[groups.first(corner)];
       if (normal < 0) {
         normal = static_cast<std::int32_t>(result.normals.size());
         result.points.push_back(static_cast<std::int32_t>(point));

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <numeric>
 #include <utility>
 
 #include "lattice/build/offsets.h"
 #include "lattice/core/box_tree.h"
+#include "lattice/core/disjoint_sets.h"
 #include "lattice/core/error.h"
 
 namespace espalier {
@@ -22,14 +22,6 @@ void check_tolerance(double tolerance) {
   }
 }
 
-std::size_t root_of(std::vector<std::size_t>& parent, std::size_t i) {
-  while (parent[i] != i) {
-    parent[i] = parent[parent[i]];
-    i = parent[i];
-  }
-  return i;
-}
-
 /// For each point the smallest index of those it coincides with, directly or through others.
 std::vector<std::size_t> clusters_of(const std::vector<glm::dvec3>& points, double tolerance) {
   std::vector<Box> boxes(points.size());
@@ -37,21 +29,19 @@ std::vector<std::size_t> clusters_of(const std::vector<glm::dvec3>& points, doub
     boxes[i].add(points[i]);
   }
   const BoxTree tree(std::move(boxes));
-  std::vector<std::size_t> parent(points.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  DisjointSets sets(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     tree.visit_overlapping(tree.box(i).grown(tolerance), [&](std::size_t j) {
       if (j < i && glm::distance(points[i], points[j]) <= tolerance) {
-        const std::size_t a = root_of(parent, i);
-        const std::size_t b = root_of(parent, j);
-        parent[std::max(a, b)] = std::min(a, b);
+        sets.join(i, j);
       }
     });
   }
+  std::vector<std::size_t> first(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    parent[i] = root_of(parent, i);
+    first[i] = sets.first(i);
   }
-  return parent;
+  return first;
 }
 
 /// The mean of a vertex's sources, exact where they coincide.

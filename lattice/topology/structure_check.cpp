@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 
+#include "lattice/core/disjoint_sets.h"
 #include "lattice/topology/defect_collection.h"
 
 namespace espalier {
@@ -73,7 +73,7 @@ struct EdgeUse {
 struct CellMemory {
   std::vector<std::int32_t> faces;
   std::vector<std::int32_t> vertices;
-  std::vector<std::uint32_t> parents;
+  DisjointSets sets;
   std::vector<EdgeUse> uses;
 };
 
@@ -99,30 +99,15 @@ std::string edge_name(std::uint64_t edge) {
   return fmt::format("{}-{}", edge >> 32, edge & 0xffffffffU);
 }
 
-std::size_t find_root(std::vector<std::uint32_t>& parent, std::size_t i) {
-  while (parent[i] != i) {
-    parent[i] = parent[parent[i]];
-    i = parent[i];
-  }
-  return i;
-}
-
 /// Whether a closed shell is one sphere: its faces hang together by edges, and V − E + F = 2. A
 /// handle or a vertex where the shell touches itself lowers that number.
 bool is_sphere(const Polyhedra& polyhedra, std::size_t cell, CellMemory& memory) {
   const Row half_faces = polyhedra.cells[cell];
   const std::vector<EdgeUse>& uses = memory.uses;
-  std::vector<std::uint32_t>& parent = memory.parents;
-  parent.resize(half_faces.size());
-  std::iota(parent.begin(), parent.end(), 0u);
+  memory.sets.reset(half_faces.size());
   std::size_t n_shells = half_faces.size();
   for (std::size_t i = 0; i + 1 < uses.size(); i += 2) {
-    const std::size_t a = find_root(parent, uses[i].place);
-    const std::size_t b = find_root(parent, uses[i + 1].place);
-    if (a != b) {
-      parent[a] = static_cast<std::uint32_t>(b);
-      --n_shells;
-    }
+    n_shells -= memory.sets.join(uses[i].place, uses[i + 1].place) ? 1 : 0;
   }
   std::vector<std::int32_t>& vertices = memory.vertices;
   vertices.clear();
