@@ -1,6 +1,6 @@
 #pragma once
 
-/// Lists of elements, as users write them: "0,3,7-9".
+/// Lists, as users write them: "0,3,7-9".
 
 #include <cstdint>
 #include <optional>

@@ -8,6 +8,7 @@
 
 #include "deform/fit/limb_fit.h"
 #include "deform/scene/fitting.h"
+#include "deform/scene/index_list.h"
 #include "deform/scene/lattice_parameters.h"
 #include "deform/scene/operations.h"
 #include "lattice/build/inventory.h"
@@ -179,12 +180,10 @@ JunctionOptions junction_options(const Arguments& arguments) {
 /// The numbers of "x,y,z" or "x,y,z,r".
 std::vector<double> numbers_of(const std::string& word) {
   std::vector<double> numbers;
-  for (std::size_t begin = 0; begin <= word.size();) {
-    const std::size_t end = std::min(word.find(',', begin), word.size());
-    if (!parse_number(std::string_view(word).substr(begin, end - begin), numbers.emplace_back())) {
+  for (const std::string& part : words_between(word, ',')) {
+    if (!parse_number(part, numbers.emplace_back())) {
       return {};
     }
-    begin = end + 1;
   }
   return numbers;
 }

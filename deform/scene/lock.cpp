@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "deform/evaluate/volume_boundary.h"
+#include "deform/scene/index_list.h"
 #include "lattice/core/error.h"
 #include "lattice/core/text_scanner.h"
 #include "lattice/subdivision/subdivision_boundary.h"
@@ -26,11 +27,9 @@ struct LockOption {
 };
 
 /// Numbers or sides between commas; false if one is neither.
-bool parse_faces(std::string_view text, LockOption& option) {
+bool parse_faces(const std::string& text, LockOption& option) {
   static constexpr std::array<std::string_view, 6> kSides = {"u0", "u1", "v0", "v1", "w0", "w1"};
-  while (true) {
-    const std::size_t comma = std::min(text.find(','), text.size());
-    const std::string_view word = text.substr(0, comma);
+  for (const std::string& word : words_between(text, ',')) {
     const auto side = std::find(kSides.begin(), kSides.end(), word);
     std::int64_t face = -1;
     if (side != kSides.end()) {
@@ -40,11 +39,8 @@ bool parse_faces(std::string_view text, LockOption& option) {
     } else {
       return false;
     }
-    if (comma == text.size()) {
-      return true;
-    }
-    text.remove_prefix(comma + 1);
   }
+  return true;
 }
 
 LockOption parse_lock(const std::string& option) {
@@ -61,8 +57,7 @@ LockOption parse_lock(const std::string& option) {
     }
   }
   result.names_faces = colon != std::string::npos;
-  const bool are_faces =
-      !result.names_faces || parse_faces(std::string_view(option).substr(colon + 1), result);
+  const bool are_faces = !result.names_faces || parse_faces(option.substr(colon + 1), result);
   if (!result.continuity || !are_faces) {
     throw ParameterError("'lock' is '" + option +
                          "', must be none, C0, C1 or C2, or C0:, C1: or C2: and the numbers of "

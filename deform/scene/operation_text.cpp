@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "deform/scene/index_list.h"
 #include "deform/scene/operations.h"
 #include "lattice/core/error.h"
 #include "lattice/core/text_scanner.h"
@@ -91,18 +92,16 @@ std::string take_word(std::string_view& line) {
 }
 
 template <class Number, class Parse>
-std::vector<Number> parse_list(const std::string& name, std::string_view text, const Parse& parse) {
+std::vector<Number> parse_list(const std::string& name, const std::string& text,
+                               const Parse& parse) {
   std::vector<Number> numbers;
-  for (bool is_last = false; !is_last;) {
-    const std::size_t comma = text.find(',');
-    is_last = comma == std::string_view::npos;
+  for (const std::string& word : words_between(text, ',')) {
     Number number{};
-    if (!parse(text.substr(0, comma), number)) {
-      throw ParameterError("'" + name + "' has " + quoted(text.substr(0, comma)) +
+    if (!parse(word, number)) {
+      throw ParameterError("'" + name + "' has " + quoted(word) +
                            ", which is no number of its kind");
     }
     numbers.push_back(number);
-    text.remove_prefix(is_last ? text.size() : comma + 1);
   }
   return numbers;
 }

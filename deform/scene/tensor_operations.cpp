@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "deform/scene/fitting.h"
+#include "deform/scene/index_list.h"
 #include "deform/scene/lattice_parameters.h"
 #include "deform/scene/operations.h"
 #include "lattice/core/error.h"
@@ -53,15 +54,13 @@ std::array<int, 3> degree_of(const Arguments& arguments, const std::array<int, 3
 std::array<Ends, 3> ends_of(const Arguments& arguments) {
   const std::string& text = arguments.text("ends");
   std::vector<Ends> ends;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const auto named = ends_named(std::string_view(text).substr(begin, end - begin));
+  for (const std::string& word : words_between(text, ',')) {
+    const auto named = ends_named(word);
     if (!named || *named == Ends::Explicit) {
       ends.clear();
       break;
     }
     ends.push_back(*named);
-    begin = end + 1;
   }
   if (ends.size() != 1 && ends.size() != 3) {
     throw ParameterError("'ends' is " + quoted(text) +
