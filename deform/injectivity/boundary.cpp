@@ -3,20 +3,16 @@
 
 #include "deform/injectivity/boundary.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <glm/matrix.hpp>
 #include <utility>
 
 #include "deform/injectivity/boundary_parts.h"
 #include "deform/injectivity/boundary_seams.h"
 #include "deform/injectivity/face_pair.h"
+#include "deform/injectivity/pose_checks.h"
 #include "lattice/core/box_tree.h"
-#include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
-#include "lattice/core/text_scanner.h"
 
 namespace espalier {
 namespace {
@@ -28,26 +24,6 @@ constexpr std::size_t kBatch = 128;  // faces between two looks at what was foun
 constexpr std::size_t kGrain = 16;
 constexpr std::size_t kMostPairs = 8;       // of one face that may take all the boxes they may
 constexpr std::size_t kMostPatience = 100;  // undecided pairs
-
-double largest_coordinate(std::span<const glm::dvec3> pose, std::size_t n_controls) {
-  if (pose.size() != n_controls) {
-    throw ParameterError(
-        fmt::format("the pose has {} control points, the lattice {}", pose.size(), n_controls));
-  }
-  double largest = 0;
-  for (std::size_t i = 0; i < pose.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const double size = std::abs(pose[i][axis]);
-      if (!(size <= kLargestCoordinate)) {
-        throw ParameterError(fmt::format(
-            "the pose has control point {} at ({}, {}, {}), must be finite, at most 1e18 in size",
-            i, pose[i].x, pose[i].y, pose[i].z));
-      }
-      largest = std::max(largest, size);
-    }
-  }
-  return largest;
-}
 
 BoundaryPlace place_of(const BoundaryMesh& mesh, std::size_t face, const glm::dvec2& st) {
   const BoundaryFaceId& id = mesh.faces[face];
@@ -157,7 +133,9 @@ bool is_mirrored(const Volume& volume, const BoundaryMesh& mesh,
 BoundaryReport check_boundary(const Volume& volume, std::span<const glm::dvec3> pose,
                               std::span<const double> pose_weights, const BoundaryOptions& options,
                               const Progress& progress) {
-  const double tolerance = kRounding * largest_coordinate(pose, volume.n_controls());
+  require_coordinates("pose", pose, volume.n_controls());
+  require_weights(pose_weights, volume);
+  const double tolerance = kRounding * largest_coordinate(pose);
   const std::vector<glm::dvec3> points = volume.points(pose);
   const BoundaryMesh mesh = boundary_mesh(volume, points, pose_weights);
   BoundaryReport report;

@@ -9,10 +9,10 @@
 #include <glm/matrix.hpp>
 
 #include "deform/injectivity/dominance.h"
+#include "deform/injectivity/pose_checks.h"
 #include "deform/injectivity/rational_patch.h"
 #include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
-#include "lattice/core/text_scanner.h"
 #include "lattice/volume/bezier_evaluator.h"
 
 namespace espalier {
@@ -21,30 +21,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnit = std::numeric_limits<double>::epsilon();
 constexpr std::size_t kRestBoxes = 200;
-
-double largest_coordinate(std::span<const glm::dvec3> points) {
-  double largest = 0;
-  for (const glm::dvec3& p : points) {
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
-  return largest;
-}
-
-void require_finite(std::string_view what, std::span<const glm::dvec3> values,
-                    std::size_t n_controls) {
-  if (values.size() != n_controls) {
-    throw ParameterError(fmt::format("the {} has {} control points, the lattice {}", what,
-                                     values.size(), n_controls));
-  }
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const glm::dvec3& p = values[i];
-    if (!(largest_coordinate({&p, 1}) <= kLargestCoordinate) || p != p) {
-      throw ParameterError(fmt::format(
-          "the {} has control point {} at ({}, {}, {}), must be finite, at most 1e18 in size", what,
-          i, p.x, p.y, p.z));
-    }
-  }
-}
 
 double value_at(const BoundedPolynomial& polynomial, const glm::dvec3& uvw) {
   std::array<std::vector<double>, 3> bases;
@@ -86,20 +62,6 @@ std::span<const double> differing(std::span<const double> weights) {
   const bool are_equal =
       std::all_of(weights.begin(), weights.end(), [&](double w) { return w == weights.front(); });
   return are_equal ? std::span<const double>() : weights;
-}
-
-void require_weights(std::span<const double> weights, const Volume& volume) {
-  const std::size_t n_weights = volume.weights().size();
-  if (!weights.empty() && weights.size() != n_weights) {
-    throw ParameterError(
-        fmt::format("the pose has {} weights, the volume {}", weights.size(), n_weights));
-  }
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    if (!(weights[i] > 0 && weights[i] <= kLargestCoordinate)) {
-      throw ParameterError(
-          fmt::format("weight {} of the pose is {}, must be positive and finite", i, weights[i]));
-    }
-  }
 }
 
 bool is_any_moved(std::span<const std::int32_t> block, std::span<const glm::dvec3> moves) {
@@ -299,7 +261,7 @@ LocalInjectivity InjectivityCheck::local(const PosedControls& pose, std::size_t 
 LocalInjectivity InjectivityCheck::local(const PosedControls& pose,
                                          std::span<const std::int32_t> patches,
                                          std::size_t most_boxes) const {
-  require_finite("pose", pose.points, volume_->n_controls());
+  require_coordinates("pose", pose.points, volume_->n_controls());
   require_weights(pose.weights, *volume_);
   const Frame posed = frame_of(pose);
   constexpr std::size_t kGrain = 64;
@@ -364,8 +326,8 @@ void InjectivityCheck::find_moving_determinant(std::size_t i, const Frame& start
 SafeStep InjectivityCheck::largest_step(const PosedControls& pose,
                                         std::span<const glm::dvec3> motion,
                                         const SafeStepOptions& options) const {
-  require_finite("pose", pose.points, volume_->n_controls());
-  require_finite("motion", motion, volume_->n_controls());
+  require_coordinates("pose", pose.points, volume_->n_controls());
+  require_coordinates("motion", motion, volume_->n_controls());
   require_weights(pose.weights, *volume_);
   const Frame start = frame_of(pose);
   const Frame moves = motion_of(motion, start);
