@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "deform/fit/enclosure.h"
+#include "deform/fit/held_points.h"
 #include "deform/fit/limb_fit.h"
 #include "deform/fit/point_extent.h"
 #include "deform/model/point_selection.h"

@@ -308,7 +308,7 @@ TEST(Boundary, names_bad_input_and_can_be_cancelled) {
       EXPECT_NE(std::string(error.what()).find("control point 7"), std::string::npos);
     }
   }
-  pose = posed(volume, [](const glm::dvec3& x) { return x; });
+  pose = rest_of(volume);
   EXPECT_THROW((void)check_boundary(volume, pose, std::vector<double>{1.0}), ParameterError);
   pose.pop_back();
   EXPECT_THROW((void)check_boundary(volume, pose), ParameterError);

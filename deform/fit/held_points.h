@@ -1,6 +1,6 @@
 #pragma once
 
-/// Whether a lattice holds what it was made for.
+/// Whether a volume holds the points it was made for.
 
 #include <cstddef>
 #include <glm/vec3.hpp>

@@ -1,4 +1,4 @@
-#include "deform/fit/enclosure.h"
+#include "deform/fit/held_points.h"
 
 #include <vector>
 
