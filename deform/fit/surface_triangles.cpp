@@ -1,11 +1,12 @@
-/// Triangles and boxes by separating axes, T. Akenine-Möller, "Fast 3D triangle-box overlap
-/// testing", 2001; winding numbers as sums of solid angles, [JKS13].
+/// Triangles and boxes by separating axes: T. Akenine-Möller, "Fast 3D triangle-box overlap
+/// testing", 2001. Winding numbers as sums of solid angles, [JKS13]: A. Jacobson, L. Kavan and
+/// O. Sorkine-Hornung, "Robust inside-outside segmentation using generalized winding numbers",
+/// 2013.
 
 #include "deform/fit/surface_triangles.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <numeric>
@@ -33,20 +34,6 @@ std::vector<std::int32_t> first_in_place(std::span<const glm::dvec3> points) {
         is_same ? first[static_cast<std::size_t>(order[i - 1])] : order[i];
   }
   return first;
-}
-
-/// Solid angle of a triangle seen from a point, over 4π; A. van Oosterom and J. Strackee, 1983.
-double solid_angle(const Triangle& triangle, const glm::dvec3& point) {
-  const glm::dvec3 a = triangle[0] - point;
-  const glm::dvec3 b = triangle[1] - point;
-  const glm::dvec3 c = triangle[2] - point;
-  const double la = glm::length(a);
-  const double lb = glm::length(b);
-  const double lc = glm::length(c);
-  const double above = glm::dot(a, glm::cross(b, c));
-  const double below =
-      la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
-  return above == 0 ? 0 : std::atan2(above, below) / (2 * std::numbers::pi);
 }
 
 }  // namespace
@@ -111,9 +98,9 @@ bool is_closed_surface(std::span<const glm::dvec3> points,
 double winding_number(std::span<const Triangle> triangles, const glm::dvec3& point) {
   double sum = 0;
   for (const Triangle& triangle : triangles) {
-    sum += solid_angle(triangle, point);
+    sum += half_angle(point, triangle);
   }
-  return sum;
+  return sum / (2 * std::numbers::pi);
 }
 
 bool overlaps(const Triangle& triangle, const glm::dvec3& low, const glm::dvec3& high) {

@@ -32,19 +32,6 @@ SurfaceTriangle make_surface_triangle(const Triangle& corners, FaceId face, doub
   return triangle;
 }
 
-/// Half the solid angle of a triangle.
-double half_angle(const glm::dvec3& point, const Triangle& triangle) {
-  const glm::dvec3 a = triangle[0] - point;
-  const glm::dvec3 b = triangle[1] - point;
-  const glm::dvec3 c = triangle[2] - point;
-  const double length_a = glm::length(a);
-  const double length_b = glm::length(b);
-  const double length_c = glm::length(c);
-  const double volume = glm::dot(a, glm::cross(b, c));
-  return std::atan2(volume, length_a * length_b * length_c + glm::dot(a, b) * length_c +
-                                glm::dot(b, c) * length_a + glm::dot(c, a) * length_b);
-}
-
 }  // namespace
 
 void CellSurface::gather_loop(FaceId face) {

@@ -1,6 +1,7 @@
 #include "lattice/topology/face_triangles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -116,6 +117,18 @@ double distance_to_triangle(const glm::dvec3& point, const Triangle& triangle) {
   }
   return std::min({distance_to_segment(point, a, b), distance_to_segment(point, b, c),
                    distance_to_segment(point, c, a)});
+}
+
+double half_angle(const glm::dvec3& point, const Triangle& triangle) {
+  const glm::dvec3 a = triangle[0] - point;
+  const glm::dvec3 b = triangle[1] - point;
+  const glm::dvec3 c = triangle[2] - point;
+  const double length_a = glm::length(a);
+  const double length_b = glm::length(b);
+  const double length_c = glm::length(c);
+  const double volume = glm::dot(a, glm::cross(b, c));
+  return std::atan2(volume, length_a * length_b * length_c + glm::dot(a, b) * length_c +
+                                glm::dot(b, c) * length_a + glm::dot(c, a) * length_b);
 }
 
 }  // namespace espalier

@@ -24,4 +24,8 @@ void append_face_triangles(std::span<const glm::dvec3> loop, std::vector<Triangl
                                          const glm::dvec3& b);
 [[nodiscard]] double distance_to_triangle(const glm::dvec3& point, const Triangle& triangle);
 
+/// Half the solid angle under which a point sees a triangle, positive from behind; A. van Oosterom
+/// and J. Strackee, "The solid angle of a plane triangle", 1983.
+[[nodiscard]] double half_angle(const glm::dvec3& point, const Triangle& triangle);
+
 }  // namespace espalier
