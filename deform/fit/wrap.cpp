@@ -81,8 +81,9 @@ Box checked_box(const Model& model, int n) {
         fmt::format("{}: wrap: a coordinate is beyond {:g}", model.path(), kLargestCoordinate));
   }
   if (!(std::max({size.x, size.y, size.z}) > 1e-9 * kLargestCoordinate * largest)) {
-    throw ParameterError(
-        fmt::format("{}: wrap: the model is a single point, it needs a length", model.path()));
+    throw ParameterError(fmt::format(
+        "{}: wrap: the model is a single point, or as good as one so far from the origin",
+        model.path()));
   }
   return box;
 }
