@@ -11,6 +11,17 @@ namespace espalier {
 namespace {
 
 constexpr int kMostRings = 16;
+constexpr std::size_t kMostRefined = std::size_t{1} << 19;  // cells, each made eight
+
+/// Refuses before the lattice grows.
+void require_few(std::size_t n_cells, int level) {
+  if (n_cells > kMostRefined) {
+    throw ParameterError(
+        fmt::format("level {} would refine {} cells, at most {} are refined at once: take fewer "
+                    "rings or levels",
+                    level, n_cells, kMostRefined));
+  }
+}
 
 }  // namespace
 
@@ -57,8 +68,9 @@ ThbLattice refined_under(const ThbLattice& lattice, std::span<const glm::dvec3> 
   ThbLattice result = lattice;
   for (int next = 1; next <= level; ++next) {
     const std::vector<GridIndex> cells = cells_holding(*result.hierarchy, next, places);
-    result =
-        with_cells(result, next, with_rings(cells, result.hierarchy->n_cells(next - 1), n_rings));
+    const auto all = with_rings(cells, result.hierarchy->n_cells(next - 1), n_rings);
+    require_few(all.size(), next);
+    result = with_cells(result, next, all);
   }
   return result;
 }

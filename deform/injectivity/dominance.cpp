@@ -14,6 +14,11 @@ double sum_of_sizes(const glm::dvec3& v) {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
+/// What a unit of motion takes from a column's dominance: growth of its own component adds to it.
+double taken_by(const glm::dvec3& moved, int axis) {
+  return sum_of_sizes(moved) - std::abs(moved[axis]) - moved[axis];
+}
+
 /// The frame: any matrix serves whose determinant is surely positive.
 bool find_frame(const BezierView& patch, glm::dmat3& frame) {
   const glm::dmat3 middle = patch.derivative(glm::dvec3(0.5));
@@ -90,7 +95,7 @@ double dominant_step(const BezierView& start, const BezierPatch* motion,
       if (motion != nullptr) {
         const glm::dvec3 moved = slope * (motion->points[i] - motion->points[i - stride]);
         const double change =
-            sum_of_sizes(frame * moved) + weight_slope * motion_reach +
+            taken_by(frame * moved, axis) + weight_slope * motion_reach +
             frame_size * (kRounding * sum_of_sizes(moved) + 6 * slope * errors.motion);
         step = change > 0 ? std::min(step, excess / change * (1 - 1e-12)) : step;
       }

@@ -304,16 +304,20 @@ void InjectivityCheck::find_moving_determinant(std::size_t i, const Frame& start
   Workspace& space = workspace();
   patch_of(i, start, space.pose);
   patch_of(i, moves, space.motion);
-  patch_of(i, *rest_, space.rest);
-  Collapse collapse = collapse_of(i, start);
   if (start.weights.empty()) {
-    collapse = collapse & common_collapse(space.motion, space.motion);
+    Collapse collapse = common_collapse(space.pose, space.motion);
+    if (collapse != Collapse()) {  // most patches collapse nowhere, at rest or not
+      patch_of(i, *rest_, space.rest);
+      collapse = collapse_of(i, start) & common_collapse(space.motion, space.motion);
+    }
     space.nets.moving_determinant(
         {space.pose, space.motion, is_parallel, start.point_error, moves.point_error}, collapse,
         space.powers);
     return;
   }
-  collapse = collapse & rational_collapse(*volume_, i, moves.points, moves.weights);
+  patch_of(i, *rest_, space.rest);
+  const Collapse collapse =
+      collapse_of(i, start) & rational_collapse(*volume_, i, moves.points, moves.weights);
   const HomogeneousPatch homogeneous = start.homogeneous(space.pose, space.start_points);
   HomogeneousPatch motion = moves.homogeneous(space.motion, space.motion_points);
   for (glm::dvec4& p : space.motion_points) {

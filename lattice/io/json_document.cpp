@@ -139,7 +139,7 @@ const Json& JsonReader::type() const {
   }
   const auto found = root_.find("type");
   if (found == root_.end()) {
-    throw FileError(path_, "\"type\": \"subdivision\" is missing");
+    throw FileError(path_, "\"type\" is missing: subdivision, bezier, bspline, nurbs or thb");
   }
   return *found;
 }

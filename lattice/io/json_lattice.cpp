@@ -50,7 +50,8 @@ class Reader : public JsonReader {
  private:
   void check_kind() const {
     if (type() != kType) {
-      fail("type", fmt::format("is {}, this version reads \"{}\" only", shown(type()), kType));
+      fail("type", fmt::format("is {}, not {}; grids are of type bezier, bspline, nurbs or thb",
+                               shown(type()), kType));
     }
   }
 

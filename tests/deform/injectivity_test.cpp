@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "deform/injectivity/dominance.h"
 #include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
 #include "lattice/subdivision/freeze.h"
@@ -106,6 +107,23 @@ TEST(LargestStep, refuses_a_pose_that_is_folded_already) {
     FAIL();
   } catch (const LatticeError& error) {
     EXPECT_NE(std::string(error.what()).find("folded before anything moves"), std::string::npos);
+  }
+}
+
+TEST(DominantStep, is_where_a_cube_is_flat_and_does_not_end_while_it_grows) {
+  const BezierPatch cube = test::warped_cube({3, 3, 3}, 0, 1);
+  for (const glm::dvec3 by : {glm::dvec3(-2, 0, 0), glm::dvec3(1, -2, 3), glm::dvec3(1, 0, 4)}) {
+    BezierPatch motion = cube;
+    for (glm::dvec3& p : motion.points) {
+      p *= by;
+    }
+    const double step = dominant_step(cube, &motion, {});
+    if (by.x < 0 || by.y < 0) {
+      EXPECT_LE(step, 0.5);
+      EXPECT_NEAR(step, 0.5, 1e-9);
+    } else {
+      EXPECT_EQ(step, INFINITY);
+    }
   }
 }
 

@@ -86,5 +86,21 @@ TEST(ThbRegion, names_what_cannot_be) {
   EXPECT_THROW((void)refined_under(lattice, {}, 1), ParameterError);
 }
 
+TEST(ThbRegion, that_would_be_huge_is_refused_before_it_grows) {
+  const ThbLattice lattice = make_thb_lattice({82, 82, 82}, {1, 1, 1}, {});
+  std::vector<glm::dvec3> points;  // 16 rings round them cover all 81 × 81 × 81 cells
+  for (int i = 0; i < 27; ++i) {
+    points.emplace_back((i % 3 + 0.5) / 3, (i / 3 % 3 + 0.5) / 3, (i / 9 + 0.5) / 3);
+  }
+  try {
+    (void)refined_under(lattice, points, 1, 16);
+    FAIL();
+  } catch (const ParameterError& error) {
+    EXPECT_STREQ(error.what(),
+                 "level 1 would refine 531441 cells, at most 524288 are refined at once: take "
+                 "fewer rings or levels");
+  }
+}
+
 }  // namespace
 }  // namespace espalier

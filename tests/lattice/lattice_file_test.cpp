@@ -282,9 +282,11 @@ TEST_F(LatticeFile, says_what_kind_of_json_it_reads) {
   EXPECT_ERROR("a.json", "{}", ": is no lattice: \"format\": \"espalier/1\" is missing");
   EXPECT_ERROR("a.json", cube_with("espalier/1", "espalier/2"),
                ": format: is \"espalier/2\", this version reads \"espalier/1\"");
-  EXPECT_ERROR("a.json", cube_with("\"subdivision\"", "\"nurbs\""),
-               ": type: is \"nurbs\", this version reads \"subdivision\" only");
-  EXPECT_ERROR("a.json", cube_with(", \"type\": \"subdivision\"", ""), "\"type\"");
+  EXPECT_ERROR(
+      "a.json", cube_with("\"subdivision\"", "\"nurbs\""),
+      ": type: is \"nurbs\", not subdivision; grids are of type bezier, bspline, nurbs or thb");
+  EXPECT_ERROR("a.json", cube_with(", \"type\": \"subdivision\"", ""),
+               ": \"type\" is missing: subdivision, bezier, bspline, nurbs or thb");
   EXPECT_ERROR("a.json", cube_and("\"scheme\": \"loop\""), ": scheme: is \"loop\", not");
   EXPECT_ERROR("a.json", cube_and("\"scheme\": 3"), ": scheme: is 3, not");
   EXPECT_ERROR("a.json", cube_with("\"faces\"", "\"fences\""), ": \"faces\" is missing");
