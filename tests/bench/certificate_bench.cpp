@@ -82,7 +82,7 @@ std::vector<glm::dvec4> weighted_points(const BezierPatch& patch) {
   return points;
 }
 
-void certify(const BoundedPolynomial& determinant) {
+void certify(BoundedPolynomial& determinant) {
   if (positivity(determinant, 1).verdict != Verdict::Certified) {
     throw std::runtime_error("the patch needs subdivision");
   }
