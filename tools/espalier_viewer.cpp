@@ -33,6 +33,7 @@ struct Options {
   std::string script;
   std::string screenshot;
   std::string size = "1280x800";
+  double autosave = 2;
   bool recovers = false;
 };
 
@@ -77,8 +78,8 @@ void run(const Options& options) {
               run_headless({options.files, script, options.script, width, height}));
     return;
   }
-  run_window({options.files, script, width, height, state_path("journal"), state_path("recent"),
-              options.recovers});
+  run_window({options.files, script, width, height, state_path("journal"), options.autosave,
+              state_path("recent"), options.recovers});
 }
 
 }  // namespace
@@ -93,6 +94,10 @@ int main(int argc, char** argv) {
   program.add_option("--screenshot", options.screenshot,
                      "no window: do the script, write the last frame to this .png file");
   program.add_option("--size", options.size, "WIDTHxHEIGHT in pixels (default 1280x800)");
+  program
+      .add_option("--autosave", options.autosave,
+                  "seconds between two writes of the journal that --recover reads (default 2)")
+      ->check(CLI::Range(0.0, 3600.0));
   program.add_flag("--recover", options.recovers, "go on where a session ended unexpectedly");
   program.footer(espalier::viewer::kScriptHelp);
   try {

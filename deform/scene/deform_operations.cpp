@@ -92,12 +92,6 @@ ControlPose pose_of(const Scene& scene, const Arguments& arguments, std::size_t 
                                : own_pose(lattice_in(scene, lattice));
 }
 
-/// The weights of control points at rest, of a lattice that has them.
-std::span<const double> rest_weights(const Lattice& lattice) {
-  const auto* tensor = lattice.as<TensorLattice>();
-  return tensor == nullptr ? std::span<const double>() : std::span<const double>(tensor->weights);
-}
-
 /// An option that goes with each lattice must be given as often as they are, or not at all.
 void require_one_for_each_lattice(const Arguments& arguments, const std::string& name) {
   const std::size_t n = arguments.texts(name).size();

@@ -163,6 +163,11 @@ std::vector<glm::dvec3> locked_pose(std::vector<glm::dvec3> pose, std::span<cons
   return pose;
 }
 
+std::span<const double> rest_weights(const Lattice& lattice) {
+  const auto* tensor = lattice.as<TensorLattice>();
+  return tensor == nullptr ? std::span<const double>() : std::span<const double>(tensor->weights);
+}
+
 std::vector<double> locked_weights(std::vector<double> weights, std::span<const double> rest,
                                    const Lock& lock) {
   for (const std::int32_t control : lock.controls) {

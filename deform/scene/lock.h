@@ -30,8 +30,11 @@ namespace espalier {
                                                   std::span<const glm::dvec3> rest,
                                                   const Lock& lock);
 
-/// The same of the weights of a pose: those that a lock keeps are those at rest. weights:
-/// #controls, or empty: then so is the result; rest: as many.
+/// The weights of control points at rest, of a lattice that has them.
+[[nodiscard]] std::span<const double> rest_weights(const Lattice& lattice);
+
+/// The same as locked_pose() of the weights of a pose: those that a lock keeps are those at rest.
+/// weights: #controls, or empty: then so is the result; rest: as many.
 [[nodiscard]] std::vector<double> locked_weights(std::vector<double> weights,
                                                  std::span<const double> rest, const Lock& lock);
 

@@ -8,6 +8,7 @@
 
 #include "deform/injectivity/injectivity.h"
 #include "deform/model/point_selection.h"
+#include "deform/scene/lock.h"
 #include "deform/scene/operations.h"
 #include "lattice/core/error.h"
 #include "lattice/topology/defect.h"
@@ -117,6 +118,15 @@ Scene set_influence(const Scene& scene, const Arguments& arguments, const Progre
   return result;
 }
 
+Scene set_lock(const Scene& scene, const Arguments& arguments, const Progress& /*progress*/) {
+  const std::string& model = arguments.text("model");
+  const std::string& lattice = arguments.text("lattice");
+  if (!scene.bound.contains({model, lattice})) {
+    throw ParameterError(model + " is not bound to " + lattice + ": bind it first");
+  }
+  return with_lock(scene, model, lattice, arguments.text("lock"));
+}
+
 /// The arguments of `deform` for a model's influence, if it has one.
 void add_influence(const Scene& scene, const std::string& model, Arguments& arguments) {
   const auto found = scene.influences.find(model);
@@ -137,9 +147,11 @@ Scene save_deformed(const Scene& scene, const Arguments& arguments, const Progre
   static const std::string kResult = "deformed model";
   const std::string& model = arguments.text("model");
   std::vector<std::string> lattices;
+  std::vector<std::string> locks;
   for (const auto& [key, bound] : scene.bound) {
     if (key.first == model) {
       lattices.push_back(key.second);
+      locks.push_back(bound.lock.option);
     }
   }
   if (lattices.empty()) {
@@ -150,6 +162,7 @@ Scene save_deformed(const Scene& scene, const Arguments& arguments, const Progre
                  {"lattice", lattices},
                  {"freeze", bound.freeze},
                  {"outside", bound.outside},
+                 {"lock", locks},
                  {"output", kResult}});
   add_influence(scene, model, how);
   const Scene deformed = apply(operation_named("deform"), scene, how, progress);
@@ -200,6 +213,16 @@ std::vector<Operation> pose_operations() {
          .type = Type::Path,
          .help = "a file with a weight from 0 to 1 for every point, one a line"}},
        set_influence},
+      {"set lock",
+       "Say how a model that leaves its lattice joins the part that stays",
+       {{.name = "model", .type = Type::Model, .help = "the model", .is_required = true},
+        lattice,
+        {.name = "lock",
+         .type = Type::Text,
+         .help = "none, C0, C1 or C2: where its faces cross the lattice's boundary; C1:0,5,7: at "
+                 "these faces (default C1)",
+         .fallback = Value(std::string("C1"))}},
+       set_lock},
       {"save deformed",
        "Write a model as the lattices it is bound to deform it",
        {{.name = "model", .type = Type::Model, .help = "the model", .is_required = true},

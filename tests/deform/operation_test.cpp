@@ -118,8 +118,8 @@ TEST(Operation, the_table_has_distinct_names_and_tells_all_about_its_parameters)
                        "new ogrid",   "new sphere",    "new star",      "new thb",     "new torus",
                        "open",        "pose bend",     "pose move",     "pose rotate", "pose scale",
                        "pose taper",  "pose twist",    "pull",          "refine",      "relax",
-                       "save",        "save deformed", "set influence", "set pose",    "split",
-                       "transform",   "weld"}));
+                       "save",        "save deformed", "set influence", "set lock",    "set pose",
+                       "split",       "transform",     "weld"}));
   EXPECT_THROW((void)operation_named("new"), ParameterError);
 }
 

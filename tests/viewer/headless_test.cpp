@@ -76,7 +76,7 @@ TEST_F(HeadlessTest, enter_in_the_palette_opens_a_form_whose_preview_goes_with_i
     }
     return n;
   };
-  const std::string open_form = "key f3\ntype new torus\nkey enter\n";
+  const std::string open_form = "key f3\ntype new box\nkey enter\n";
   EXPECT_GT(count_amber(run(open_form)), 200);
   EXPECT_EQ(count_amber(run(open_form + "key escape")), 0);
 }

@@ -315,6 +315,20 @@ TEST(OpenglRenderer, gives_the_same_bytes_every_time) {
   EXPECT_EQ(renderer->take_picture(camera, 150, 100), first);
 }
 
+TEST(OpenglRenderer, the_shading_changes_meshes_and_nothing_round_them) {
+  const OffscreenContext context;
+  const std::unique_ptr<Renderer> renderer = make_opengl_renderer();
+  renderer->add(square(0.5F, 0, kRed));
+  const Picture by_lamps = renderer->take_picture(front_camera(), 60, 60);
+  renderer->set_shading(Shading::Matcap);
+  const Picture as_ball = renderer->take_picture(front_camera(), 60, 60);
+  EXPECT_NE(as_ball.at(30, 30), by_lamps.at(30, 30));
+  EXPECT_TRUE(is_reddish(as_ball.at(30, 30)));
+  EXPECT_EQ(as_ball.at(5, 30), by_lamps.at(5, 30));
+  renderer->set_shading(Shading::Phong);
+  EXPECT_EQ(renderer->take_picture(front_camera(), 60, 60), by_lamps);
+}
+
 TEST(OpenglRenderer, an_update_gives_the_same_picture_as_adding_anew) {
   const OffscreenContext context;
   const std::unique_ptr<Renderer> updated = make_opengl_renderer();

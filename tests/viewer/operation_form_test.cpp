@@ -57,6 +57,17 @@ TEST(OperationForm, begins_with_the_chosen_lattice_and_what_is_selected) {
             "crease lattice=b.json edges=3-7,7-9 all=false sharpness=10 output=b.json");
 }
 
+TEST(OperationForm, a_new_lattice_goes_round_the_model_and_a_conversion_begins_with_it) {
+  const FormContext context{{"m.obj"}, {"a.json"}, {}, "a.json", ""};
+  OperationForm limb = form_for(operation_named("new limb"), context);
+  EXPECT_EQ(field(limb, "fit").text, "m.obj");
+  OperationForm conversion = form_for(operation_named("convert"), context);
+  EXPECT_EQ(field(conversion, "mesh").text, "m.obj");
+  EXPECT_EQ(field(conversion, "output").text, "lattice.json");
+  OperationForm refinement = form_for(operation_named("refine"), context);
+  EXPECT_EQ(field(refinement, "output").text, "a.json");
+}
+
 TEST(OperationForm, names_new_lattices_after_the_operation_in_the_folder) {
   const FormContext context{{}, {"dir/torus.json"}, {}, "", "dir"};
   OperationForm form = form_for(operation_named("new torus"), context);

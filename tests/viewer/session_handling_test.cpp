@@ -231,5 +231,17 @@ TEST_F(SessionHandlingTest, the_sharpness_of_selected_edges_and_vertices_is_set)
   EXPECT_EQ(session_.sharpness(), 2.5);
 }
 
+TEST(Preview, is_stopped_by_its_progress_and_complete_without) {
+  const OperationCall call = parse_call("new box cells=2,1,1 output=box.json");
+  EXPECT_EQ(preview_of(call, Scene()).segments.size(), 2u * 20u);
+  const Scene scene = apply(call, Scene());
+  const OperationCall refine = parse_call("refine input=box.json levels=1 output=box.json");
+  const Preview stopped =
+      preview_of(refine, scene, Progress([](std::string_view, double) { return false; }));
+  EXPECT_TRUE(stopped.was_stopped);
+  EXPECT_TRUE(stopped.segments.empty() && stopped.error.empty());
+  EXPECT_FALSE(preview_of(refine, scene).was_stopped);
+}
+
 }  // namespace
 }  // namespace espalier::viewer

@@ -17,6 +17,7 @@ Display::Display(Renderer& renderer) : renderer_(renderer) {
 }
 
 void Display::update(const Session& session) {
+  renderer_.set_shading(session.handling().shading);
   update_models(session);
   update_lattice(session);
   update_shapes(session);
@@ -73,6 +74,7 @@ void Display::update_lattice(const Session& session) {
   LatticeMarks marks = lattice_marks(session);
   rest_.show(renderer_, std::move(marks.rest));
   cage_.show(renderer_, std::move(marks.cage));
+  chosen_.show(renderer_, std::move(marks.chosen));
   controls_.show(renderer_, std::move(marks.controls));
   ghost_.show(renderer_, std::move(marks.ghost));
   gizmo_.show(renderer_, std::move(marks.gizmo));

@@ -40,7 +40,7 @@ class Display {
   Renderer& renderer_;
   std::map<std::string, ShownModel> models_;
   ShownMarks<LineSet> cage_, rest_, ghost_, gizmo_, refined_lines_;
-  ShownMarks<PointSet> controls_, model_marks_, influence_marks_;
+  ShownMarks<PointSet> chosen_, controls_, model_marks_, influence_marks_;
   std::optional<InfluenceHeat> heat_;
   ShownMesh surface_mesh_, cell_mesh_, selected_cell_mesh_;
   std::optional<FollowingSurface> surface_;

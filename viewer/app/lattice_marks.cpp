@@ -12,6 +12,7 @@ constexpr glm::vec3 kBoundaryGreen{0.30F, 0.72F, 0.38F};
 constexpr glm::vec3 kInnerBlue{0.36F, 0.55F, 0.95F};
 constexpr glm::vec3 kCornerYellow{0.98F, 0.86F, 0.25F};
 constexpr glm::vec3 kSelected{1.00F, 0.72F, 0.16F};
+constexpr glm::vec3 kChosenPoint{1.00F, 0.50F, 0.05F};
 constexpr glm::vec3 kActive{1.00F, 0.95F, 0.70F};
 constexpr glm::vec3 kPoint{0.10F, 0.11F, 0.13F};
 constexpr glm::vec3 kRest{0.55F, 0.57F, 0.60F};
@@ -81,7 +82,6 @@ LineSet cage_of(const Session& session) {
 
 PointSet controls_of(const Session& session) {
   const LatticeElements& elements = session.elements();
-  const Selection chosen = session.selected_vertices();
   const float scale = 0.5F + 0.5F * pen_scale(elements.edges.n_rows());
   PointSet dots{{}, {}, 9 * scale, 1.2F, 0.4F};
   for (std::size_t i = 0; i < session.shown_points().size(); ++i) {
@@ -89,11 +89,24 @@ PointSet controls_of(const Session& session) {
       continue;
     }
     dots.points.emplace_back(session.view().frame.to_drawing(session.shown_points()[i]));
-    dots.colors.push_back(chosen.contains(static_cast<std::int32_t>(i)) ? kSelected
-                          : elements.vertex_sharpness[i] > 0            ? kCornerYellow
-                          : elements.n_levels > 1 ? level_color(elements.levels[i])
-                                                  : kPoint);
+    dots.colors.push_back(elements.vertex_sharpness[i] > 0 ? kCornerYellow
+                          : elements.n_levels > 1          ? level_color(elements.levels[i])
+                                                           : kPoint);
   }
+  return dots;
+}
+
+/// Larger, over the control points: another colour alone would look like that of corners.
+PointSet chosen_of(const Session& session) {
+  const float scale = 0.5F + 0.5F * pen_scale(session.elements().edges.n_rows());
+  PointSet dots{{}, {}, 14 * scale, 1.5F, 0.4F};
+  for (const std::int32_t vertex : session.selected_vertices()) {
+    const auto i = static_cast<std::size_t>(vertex);
+    if (session.visible().vertices[i]) {
+      dots.points.emplace_back(session.view().frame.to_drawing(session.shown_points()[i]));
+    }
+  }
+  dots.colors.assign(dots.points.size(), kChosenPoint);
   return dots;
 }
 
@@ -151,6 +164,7 @@ LatticeMarks lattice_marks(const Session& session) {
   if (!session.lattice().empty() && session.show().has_cage) {
     marks.cage = cage_of(session);
     marks.controls = controls_of(session);
+    marks.chosen = chosen_of(session);
     marks.rest = rest_of(session);
   }
   std::vector<glm::dvec3> ghost = session.ghost();

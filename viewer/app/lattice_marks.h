@@ -15,6 +15,7 @@ namespace espalier::viewer {
 struct LatticeMarks {
   LineSet cage;  ///< between control points: sharp red, outer green, inner blue; by level from 1
   PointSet controls;  ///< yellow where they are corners; by level in a hierarchy
+  PointSet chosen;    ///< halos of those that are selected
   LineSet rest;       ///< in Pose mode, faint: where the lattice was
   LineSet ghost;      ///< of cells to come
   LineSet gizmo;

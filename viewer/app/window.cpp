@@ -16,6 +16,7 @@
 
 #include "lattice/core/error.h"
 #include "lattice/core/file.h"
+#include "viewer/app/autosave.h"
 #include "viewer/app/viewer.h"
 #include "viewer/interact/script.h"
 
@@ -226,6 +227,7 @@ class Program {
  public:
   explicit Program(const WindowOptions& options)
       : options_(options),
+        autosave_(options.autosave, options.autosave_interval),
         window_(options.width, options.height),
         viewer_(Progress([this](std::string_view task, double fraction) {
           return on_progress(task, fraction);
@@ -236,19 +238,25 @@ class Program {
     while (!viewer_.may_quit()) {
       step();
     }
-    if (!options_.autosave.empty()) {
-      std::filesystem::remove(options_.autosave);
-    }
+    autosave_.end();
   }
 
  private:
   void begin() {
     viewer_.handle(window_.size());
     viewer_.set_recent(lines_of(options_.recent));
-    if (options_.recovers && !options_.autosave.empty()) {
-      viewer_.session().recover(read_file(options_.autosave));
+    std::vector<std::string> files = options_.files;
+    if (options_.recovers) {
+      for (std::string& file : files) {
+        file = std::filesystem::absolute(file).string();
+      }
+      recover();
+    } else if (autosave_.moves_leftover()) {
+      viewer_.session().say(
+          "The last session did not end well. Close this window and start espalier-viewer "
+          "--recover to go on from there.");
     }
-    for (const std::string& file : options_.files) {
+    for (const std::string& file : files) {
       viewer_.open(file);
     }
     viewer_.session().frame_all();
@@ -266,12 +274,35 @@ class Program {
     draw();
   }
 
+  void recover() {
+    try {
+      const LeftJournal left = autosave_.recovered();
+      std::error_code failure;
+      std::filesystem::current_path(left.folder, failure);
+      viewer_.session().recover(left.text);
+    } catch (const Error& error) {
+      viewer_.session().say(error.what());
+    }
+  }
+
+  /// The panels see where the mouse is, and every press and release, only by drawing a frame: on a
+  /// slow machine several come at once.
+  void handle(const Event& event) {
+    const bool is_button =
+        std::holds_alternative<MousePress>(event) || std::holds_alternative<MouseRelease>(event);
+    if (is_button && has_mouse_news_) {
+      draw();
+    }
+    has_mouse_news_ |= is_button || std::holds_alternative<MouseMove>(event);
+    task_began_ = Clock::now();
+    viewer_.handle(event);
+  }
+
   void step() {
     window_.wait();
     viewer_.handle(window_.size());
     for (const Event& event : window_.take_events()) {
-      task_began_ = Clock::now();
-      viewer_.handle(event);
+      handle(event);
     }
     for (const std::string& path : window_.take_dropped()) {
       viewer_.open(path);
@@ -279,6 +310,7 @@ class Program {
     if (window_.takes_close()) {
       viewer_.ask_to_quit();
     }
+    task_began_ = Clock::now();
     draw();
     autosave();
     keep_recent();
@@ -302,22 +334,18 @@ class Program {
 
   void draw() {
     const Clock::time_point start = Clock::now();
+    has_mouse_news_ = false;
     viewer_.draw(frame_seconds_);
     window_.show();
     frame_seconds_ = seconds_between(start, Clock::now());
   }
 
   void autosave() {
-    const std::string text = viewer_.session().journal().text();
-    if (options_.autosave.empty() || text == saved_) {
-      return;
-    }
     try {
-      write_file(options_.autosave, text);
+      autosave_.keep(viewer_.session().journal(), seconds_between(start_, Clock::now()));
     } catch (const Error& error) {
       viewer_.session().say(error.what());
     }
-    saved_ = text;
   }
 
   /// Shows a task that takes longer than a moment; Esc stops it.
@@ -340,13 +368,15 @@ class Program {
   }
 
   const WindowOptions& options_;
+  Autosave autosave_;
   Glfw glfw_;
   Window window_;
   Viewer viewer_;
-  Clock::time_point task_began_ = Clock::now();
-  Clock::time_point drawn_ = task_began_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point task_began_ = start_;
+  Clock::time_point drawn_ = start_;
   double frame_seconds_ = 0;
-  std::string saved_;
+  bool has_mouse_news_ = false;  // that no frame has shown the panels
   std::vector<std::string> kept_recent_;
 };
 

@@ -12,9 +12,10 @@ struct WindowOptions {
   std::string script;              ///< done first, see parse_script_line()
   int width = 1280;
   int height = 800;
-  std::string autosave;   ///< where the journal is kept while the program runs; "": nowhere
-  std::string recent;     ///< where the files opened are remembered; "": nowhere
-  bool recovers = false;  ///< begins with what autosave holds
+  std::string autosave;          ///< where the journal is kept while the program runs; "": nowhere
+  double autosave_interval = 2;  ///< seconds
+  std::string recent;            ///< where the files opened are remembered; "": nowhere
+  bool recovers = false;         ///< begins with what autosave holds
 };
 
 /// Runs until the user quits. Throws Error if the system has no display, or none with OpenGL 3.3,

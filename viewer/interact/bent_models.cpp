@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "deform/scene/lock.h"
 #include "deform/scene/pose.h"
 #include "lattice/tensor/tensor_lattice.h"
 
@@ -10,6 +11,8 @@ namespace {
 
 Bend bend_of(const BoundModel& bound, const Lattice& lattice) {
   ControlPose pose = own_pose(lattice);
+  pose.points = locked_pose(std::move(pose.points), lattice.rest_points(), bound.lock);
+  pose.weights = locked_weights(std::move(pose.weights), rest_weights(lattice), bound.lock);
   return {bound.volume, bound.binding, std::move(pose.points),
           point_weights(*bound.volume, pose.weights)};
 }
@@ -31,6 +34,7 @@ void BentModels::update(const Scene& scene, const DrawingFrame& frame, bool is_b
       Bends& bends = bends_[names.first];
       bends.bends.push_back(bend_of(bound, lattice_in(scene, names.second)));
       bends.lattices.push_back(names.second);
+      bends.locked.push_back(bound.lock.controls);
     }
   }
   for (const auto& [name, model] : scene.models) {
@@ -53,6 +57,17 @@ std::optional<std::size_t> BentModels::dragged(const std::string& model) const {
              : std::optional(static_cast<std::size_t>(found - lattices.begin()));
 }
 
+std::vector<glm::dvec3> BentModels::locked(const std::string& model, std::size_t bend,
+                                           std::span<const glm::dvec3> controls) const {
+  std::vector<glm::dvec3> result(controls.begin(), controls.end());
+  const Bends& bends = bends_.at(model);
+  for (const std::int32_t control : bends.locked[bend]) {
+    const auto i = static_cast<std::size_t>(control);
+    result[i] = bends.bends[bend].controls[i];
+  }
+  return result;
+}
+
 void BentModels::begin_drag(ControlDrag drag) {
   cancel_drag();
   drag_ = std::move(drag);
@@ -64,8 +79,13 @@ void BentModels::begin_drag(ControlDrag drag) {
   for (auto& [name, model] : models_) {
     const auto bend = dragged(name);
     if (bend && drag_->is_fast) {
-      drag_->plan.dragged = *bend;
-      model.begin_drag(drag_->plan);
+      DragPlan plan = drag_->plan;
+      plan.dragged = *bend;
+      plan.controls = locked(name, *bend, plan.controls);
+      for (const std::int32_t control : bends_.at(name).locked[*bend]) {
+        plan.weights[static_cast<std::size_t>(control)] = 0;
+      }
+      model.begin_drag(plan);
     } else if (bend) {
       model.begin_evaluation();
     }
@@ -99,9 +119,13 @@ double BentModels::follow_slowly(std::span<const glm::dvec3> target, bool stops_
   for (auto& [name, model] : models_) {
     const auto bend = dragged(name);
     // Of a pose with weights of its own no way to the fold is known.
-    if (bend && model.evaluate(*bend, target) && stops_at_folds &&
+    if (!bend) {
+      continue;
+    }
+    const std::vector<glm::dvec3> to = locked(name, *bend, target);
+    if (model.evaluate(*bend, to) && stops_at_folds &&
         bends_[name].bends[*bend].pose_weights.empty()) {
-      fraction = std::min(fraction, model.safe_fraction(bends_[name].bends, *bend, target));
+      fraction = std::min(fraction, model.safe_fraction(bends_[name].bends, *bend, to));
     }
   }
   if (fraction < 1) {
@@ -111,7 +135,7 @@ double BentModels::follow_slowly(std::span<const glm::dvec3> target, bool stops_
     }
     for (auto& [name, model] : models_) {
       if (const auto bend = dragged(name)) {
-        model.evaluate(*bend, controls);
+        model.evaluate(*bend, locked(name, *bend, controls));
       }
     }
   }

@@ -2,6 +2,7 @@
 
 /// The models of a scene as their lattices bend them, and while these are dragged.
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
@@ -44,8 +45,12 @@ class BentModels {
  private:
   struct Bends {
     std::vector<Bend> bends;
-    std::vector<std::string> lattices;  ///< #bends
+    std::vector<std::string> lattices;              ///< #bends
+    std::vector<std::vector<std::int32_t>> locked;  ///< #bends: controls that count as unmoved
   };
+  /// Where the controls are for a model: those that are locked stay.
+  [[nodiscard]] std::vector<glm::dvec3> locked(const std::string& model, std::size_t bend,
+                                               std::span<const glm::dvec3> controls) const;
   [[nodiscard]] std::optional<std::size_t> dragged(const std::string& model) const;
   double follow_fast(const DragMotion& motion, bool stops_at_folds);
   double follow_slowly(std::span<const glm::dvec3> target, bool stops_at_folds);

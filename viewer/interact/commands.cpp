@@ -104,25 +104,28 @@ std::vector<Command> view_commands(Preset preset) {
   const auto look = [](const char* view) {
     return [=](Session& session) { session.look_from(view); };
   };
-  return {{"Hide what is selected", "h", &Session::hide_selected},
-          {"Show what is hidden", "alt+h", &Session::reveal},
-          {"Cut the lattice open, or not", "shift+c", showing([](Show& show) {
-             show.cut = show.cut ? std::nullopt : std::optional<Cut>(Cut());
-           })},
-          {"Outline the models' triangles, or not", "shift+w",
-           switching([](Handling& handling) { handling.has_wireframe = !handling.has_wireframe; })},
-          {"Show the volume's boundary, or not", "shift+v",
-           showing([](Show& show) { show.has_surface = !show.has_surface; })},
-          {"See all", preset == Preset::Blender ? "home" : "home a", &Session::frame_all},
-          {"See what is selected", preset == Preset::Blender ? "kp. ." : "kp. . f",
-           &Session::frame_selected},
-          {"Look from the front", "kp1", look("front")},
-          {"Look from the back", "ctrl+kp1", look("back")},
-          {"Look from the right", "kp3", look("right")},
-          {"Look from the left", "ctrl+kp3", look("left")},
-          {"Look from above", "kp7", look("top")},
-          {"Look from below", "ctrl+kp7", look("bottom")},
-          {"With or without perspective", "kp5", &Session::toggle_projection}};
+  return {
+      {"Hide what is selected", "h", &Session::hide_selected},
+      {"Show what is hidden", "alt+h", &Session::reveal},
+      {"Cut the lattice open, or not", "shift+c",
+       showing([](Show& show) { show.cut = show.cut ? std::nullopt : std::optional<Cut>(Cut()); })},
+      {"Outline the models' triangles, or not", "shift+w",
+       switching([](Handling& handling) { handling.has_wireframe = !handling.has_wireframe; })},
+      {"Light by lamps, or as a shiny ball (matcap)", "alt+m", switching([](Handling& handling) {
+         handling.shading = handling.shading == Shading::Phong ? Shading::Matcap : Shading::Phong;
+       })},
+      {"Show the volume's boundary, or not", "shift+v",
+       showing([](Show& show) { show.has_surface = !show.has_surface; })},
+      {"See all", preset == Preset::Blender ? "home" : "home a", &Session::frame_all},
+      {"See what is selected", preset == Preset::Blender ? "kp. ." : "kp. . f",
+       &Session::frame_selected},
+      {"Look from the front", "kp1", look("front")},
+      {"Look from the back", "ctrl+kp1", look("back")},
+      {"Look from the right", "kp3", look("right")},
+      {"Look from the left", "ctrl+kp3", look("left")},
+      {"Look from above", "kp7", look("top")},
+      {"Look from below", "ctrl+kp7", look("bottom")},
+      {"With or without perspective", "kp5", &Session::toggle_projection}};
 }
 
 std::vector<Command> all_commands(Preset preset) {

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "viewer/interact/transform.h"
+#include "viewer/render/drawing.h"
 
 namespace espalier::viewer {
 
@@ -24,7 +25,8 @@ struct Handling {
   Pivot pivot = Pivot::Middle;
   TransformKind gizmo = TransformKind::Move;  ///< what its handles do
   bool has_gizmo = true;
-  bool has_wireframe = false;     ///< the models' triangles are outlined
+  bool has_wireframe = false;  ///< the models' triangles are outlined
+  Shading shading = Shading::Phong;
   bool is_soft = false;           ///< neighbours of what is selected follow
   double soft_radius = 0;         ///< model units
   bool is_through = true;         ///< what the lattice's outer faces hide can be selected

@@ -18,6 +18,7 @@ void Journal::apply(const OperationCall& call, const Progress& progress) {
   steps_.resize(n_done_);
   steps_.push_back(std::move(step));
   ++n_done_;
+  ++revision_;
   if (was_saved && !steps_.back().changes_scene) {
     n_saved_ = n_done_;
   }
@@ -40,6 +41,7 @@ bool Journal::undo() {
     --n_done_;
   }
   --n_done_;
+  ++revision_;
   return true;
 }
 
@@ -48,6 +50,7 @@ bool Journal::redo() {
     return false;
   }
   ++n_done_;
+  ++revision_;
   while (n_done_ < steps_.size() && !steps_[n_done_].changes_scene) {
     ++n_done_;
   }

@@ -2,6 +2,7 @@
 
 /// What was done: every operation with the scene it made.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ class Journal {
 
   /// The operations that led here, one a line.
   [[nodiscard]] std::string text() const;
+  /// Grows whenever text() may have become another.
+  [[nodiscard]] std::uint64_t revision() const { return revision_; }
   /// Whether the scene changed since this was last marked as saved, or since the beginning.
   [[nodiscard]] bool is_changed() const { return n_done_ != n_saved_; }
   void mark_saved() { n_saved_ = n_done_; }
@@ -45,6 +48,7 @@ class Journal {
   Scene first_;
   std::vector<Step> steps_;
   std::size_t n_done_ = 0;
+  std::uint64_t revision_ = 0;
   std::size_t n_saved_ = 0;
 };
 

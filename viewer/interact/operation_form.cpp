@@ -98,13 +98,22 @@ std::vector<std::string> choices_of(const Parameter& parameter, const FormContex
   }
 }
 
-/// The one that the work is about, where a parameter needs a name of the scene.
+/// The one that the work is about, where a parameter needs a name of the scene; and what a new
+/// lattice goes round.
 std::string reference_text(const Parameter& parameter, const FormContext& context) {
+  const std::string model = context.models.empty() ? "" : context.models.front();
+  if (parameter.name == "fit") {
+    return model;
+  }
   if (!parameter.is_required) {
     return "";
   }
-  const bool is_model = parameter.type == ParameterType::Model;
-  return is_model ? (context.models.empty() ? "" : context.models.front()) : context.lattice;
+  const bool is_model =
+      parameter.type == ParameterType::Model || parameter.name == "mesh" ||
+      (parameter.type == ParameterType::ModelOrLattice && context.lattice.empty());
+  return is_model && !model.empty()               ? model
+         : parameter.type == ParameterType::Model ? ""
+                                                  : context.lattice;
 }
 
 std::string first_text(const Operation& operation, const Parameter& parameter,
@@ -115,8 +124,9 @@ std::string first_text(const Operation& operation, const Parameter& parameter,
   if (parameter.type == ParameterType::Result) {
     const bool changes_lattice = std::any_of(
         operation.parameters.begin(), operation.parameters.end(), [](const Parameter& other) {
-          return other.is_required && (other.type == ParameterType::Lattice ||
-                                       other.type == ParameterType::ModelOrLattice);
+          return other.is_required && other.name != "mesh" &&
+                 (other.type == ParameterType::Lattice ||
+                  other.type == ParameterType::ModelOrLattice);
         });
     return changes_lattice && !context.lattice.empty() ? context.lattice
                                                        : new_name(operation, context);

@@ -9,9 +9,6 @@
 namespace espalier::viewer {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kPatience(150);
-
 /// The name of the lattice that an operation makes; empty if it makes none.
 std::string result_of(const OperationCall& call) {
   for (const Parameter& parameter : operation_named(call.operation).parameters) {
@@ -24,16 +21,21 @@ std::string result_of(const OperationCall& call) {
 
 }  // namespace
 
-Preview preview_of(const OperationCall& call, const Scene& scene) {
+Progress impatience() {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kPatience(300);
+  const Clock::time_point end = Clock::now() + kPatience;
+  return Progress([end](std::string_view, double) { return Clock::now() < end; });
+}
+
+Preview preview_of(const OperationCall& call, const Scene& scene, const Progress& progress) {
   Preview preview;
   const std::string name = result_of(call);
   if (name.empty()) {
     return preview;
   }
-  const Clock::time_point end = Clock::now() + kPatience;
-  const Progress impatient([end](std::string_view, double) { return Clock::now() < end; });
   try {
-    const Scene after = apply(call, scene, impatient);
+    const Scene after = apply(call, scene, progress);
     const auto found = after.lattices.find(name);
     if (found != after.lattices.end()) {
       const auto points = found->second.posed_points();
@@ -43,7 +45,7 @@ Preview preview_of(const OperationCall& call, const Scene& scene) {
       }
     }
   } catch (const Cancelled&) {
-    return {};
+    preview.was_stopped = true;
   } catch (const Error& error) {
     preview.error = error.what();
   }

@@ -22,6 +22,11 @@ Box bounds_of(const Scene& scene) {
 
 }  // namespace
 
+void Session::say(const std::string& message) {
+  std::erase(messages_, message);
+  messages_.push_back(message);
+}
+
 void Session::handle(const Event& event) {
   try {
     std::visit([this](const auto& what) { on(what); }, event);
@@ -194,7 +199,9 @@ std::string Session::status() const {
            (transform_->is_held ? "" : "   Enter or click: done   Esc: cancel   x y z: axis");
   }
   if (lattice_.empty()) {
-    return "Open a model and a lattice: drop their files here, or press F2.";
+    return scene().models.empty()
+               ? "Open a model or a lattice: drop their files here, or press F2."
+               : "Make a lattice round the model: press n for a box, or F3 for all kinds.";
   }
   const bool is_blender = handling_.preset == Preset::Blender;
   return std::to_string(selection_.size()) + " selected   " +

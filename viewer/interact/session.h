@@ -75,8 +75,10 @@ class Session {
   void set_sharpness(double sharpness);
   /// The greatest of the selected edges or vertices.
   [[nodiscard]] double sharpness() const;
-  /// What an operation would make is shown until it is done or ended.
-  void preview(const OperationCall& call) { preview_ = preview_of(call, scene()); }
+  /// What an operation would make is shown until it is done or ended. waits: however long it takes.
+  void preview(const OperationCall& call, bool waits = false) {
+    preview_ = preview_of(call, scene(), waits ? progress_ : impatience());
+  }
   void end_preview() { preview_ = Preview(); }
   /// Does what a form says, and chooses the lattice that it makes.
   void run_form(const OperationCall& call);
@@ -89,7 +91,8 @@ class Session {
   void frame_selected();
   void look_from(const std::string& view_name);
   void toggle_projection();
-  void say(const std::string& message) { messages_.push_back(message); }
+  /// A message that is there already moves to the end.
+  void say(const std::string& message);
   void forget_messages() { messages_.clear(); }
 
   [[nodiscard]] const Journal& journal() const { return journal_; }

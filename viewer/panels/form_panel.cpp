@@ -44,7 +44,7 @@ bool edit(FormField& field) {
   } else if (!field.choices.empty()) {
     is_changed = choose(label.c_str(), field);
   } else {
-    is_changed = ImGui::InputText(label.c_str(), &field.text);
+    is_changed = ImGui::InputTextWithHint(label.c_str(), parameter.help.c_str(), &field.text);
   }
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("%s%s", parameter.help.c_str(), parameter.is_list ? "; one a line" : "");
@@ -103,7 +103,18 @@ void draw_form_panel(const Session& session, PanelState& state, std::vector<Acti
   if (!error.empty()) {
     ImGui::TextColored(ImVec4(0.95F, 0.55F, 0.35F, 1), "%s", error.c_str());
   }
+  const bool may_preview = state.form_error.empty() && session.shown_preview().was_stopped;
+  if (may_preview) {
+    ImGui::TextColored(kFaint, "This takes a moment: no preview yet.");
+  }
   ImGui::PopTextWrapPos();
+  if (may_preview && ImGui::Button("Preview")) {
+    actions.emplace_back(
+        [call = state.form->call()](Session& target) { target.preview(call, true); });
+  }
+  if (may_preview) {
+    ImGui::SameLine();
+  }
   if (ImGui::Button("Do it") && state.form_error.empty()) {
     actions.emplace_back([call = state.form->call()](Session& target) { target.run_form(call); });
     is_open = false;

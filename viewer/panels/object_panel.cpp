@@ -2,8 +2,11 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "viewer/panels/fixed_panel.h"
 #include "viewer/panels/panels.h"
@@ -39,17 +42,44 @@ void draw_strength(const Session& session, const std::string& model, std::vector
   ImGui::PopID();
 }
 
+/// How a model that leaves a lattice joins the rest of itself.
+void draw_lock(const std::pair<std::string, std::string>& names, const Lock& lock,
+               std::vector<Action>& actions) {
+  constexpr std::array<const char*, 4> kOptions = {"none", "C0", "C1", "C2"};
+  constexpr std::array<const char*, 4> kLabels = {
+      "tears where it leaves the lattice", "joins there in position (C0)",
+      "joins there in slope (C1)", "joins there in curvature (C2)"};
+  ImGui::PushID((names.first + "\n" + names.second).c_str());
+  ImGui::SetNextItemWidth(-1);
+  const auto now = std::find(kOptions.begin(), kOptions.end(), lock.option);
+  const auto shown = static_cast<std::size_t>(now - kOptions.begin());
+  if (ImGui::BeginCombo("##lock", now == kOptions.end() ? lock.option.c_str() : kLabels[shown])) {
+    for (std::size_t i = 0; i < kOptions.size(); ++i) {
+      if (ImGui::Selectable(kLabels.at(i), i == shown)) {
+        const Arguments arguments({{"model", names.first},
+                                   {"lattice", names.second},
+                                   {"lock", std::string(kOptions.at(i))}});
+        actions.emplace_back([arguments](Session& target) {
+          target.apply({"set lock", arguments});
+        });
+      }
+    }
+    ImGui::EndCombo();
+  }
+  ImGui::PopID();
+}
+
 }  // namespace
 
-void draw_object_panel(const Session& session, std::vector<Action>& actions) {
+float draw_object_panel(const Session& session, std::vector<Action>& actions) {
   const Scene& scene = session.scene();
   if (scene.models.empty() && scene.lattices.empty()) {
-    return;
+    return 0;
   }
-  const float right = ImGui::GetIO().DisplaySize.x - kMargin;
-  ImGui::SetNextWindowPos(ImVec2(right, kMargin), ImGuiCond_Always, ImVec2(1, 0));
-  ImGui::SetNextWindowSize(ImVec2(kWidth + 40, 0));
-  ImGui::Begin("objects", nullptr, kFixed);
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImVec2(size.x - kMargin, kMargin), ImGuiCond_Always, ImVec2(1, 0));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(kWidth + 40, 0), ImVec2(kWidth + 40, size.y * 0.45F));
+  ImGui::Begin("objects", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize);
   for (const auto& [name, model] : scene.models) {
     ImGui::TextUnformatted(file_name(name).c_str());
     ImGui::TextColored(kFaint, "  %zu points, %zu faces", model.points().size(),
@@ -62,6 +92,9 @@ void draw_object_panel(const Session& session, std::vector<Action>& actions) {
         const StatusCounts counts = bound.binding->counts();
         ImGui::TextColored(kFaint, "  %zu inside, %zu outside", counts.inside + counts.border,
                            counts.outside + counts.unconverged);
+        if (session.mode() == Mode::Pose) {
+          draw_lock(names, bound.lock, actions);
+        }
       }
     }
   }
@@ -72,7 +105,9 @@ void draw_object_panel(const Session& session, std::vector<Action>& actions) {
     ImGui::TextColored(kFaint, "  %s, %zu control points", std::string(lattice.type()).c_str(),
                        lattice.rest_points().size());
   }
+  const float end = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y;
   ImGui::End();
+  return end;
 }
 
 }  // namespace espalier::viewer

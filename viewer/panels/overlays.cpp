@@ -36,7 +36,7 @@ void draw_help(const Session& session, PanelState& state) {
   if (!state.shows_help) {
     return;
   }
-  state.shows_help = begin_overlay("Keys and mouse", 640, 720);
+  state.shows_help = begin_overlay("Keys and mouse", 1040, 640);
   ImGui::TextWrapped(
       "Middle button: turn the view; with Shift shift it; wheel: zoom. Alt and the left button "
       "turn "
@@ -45,12 +45,17 @@ void draw_help(const Session& session, PanelState& state) {
       "points move: x, y, z lock an axis, Shift with them a plane, digits give a number.");
   ImGui::TextUnformatted("F1 help   F2 files   F3 find a command");
   ImGui::Separator();
-  ImGui::Columns(2, "keys", false);
-  ImGui::SetColumnWidth(0, 190);
-  for (const Command& command : commands(session.handling().preset)) {
-    ImGui::TextUnformatted(command.keys.c_str());
+  const std::vector<Command>& all = commands(session.handling().preset);
+  const std::size_t n_rows = (all.size() + 1) / 2;
+  ImGui::Columns(4, "keys", false);
+  ImGui::SetColumnWidth(0, 120);
+  ImGui::SetColumnWidth(1, 380);
+  ImGui::SetColumnWidth(2, 170);
+  for (std::size_t i = 0; i < 2 * n_rows; ++i) {
+    const std::size_t which = i / 2 + (i % 2) * n_rows;
+    ImGui::TextUnformatted(which < all.size() ? all[which].keys.c_str() : "");
     ImGui::NextColumn();
-    ImGui::TextUnformatted(command.name.c_str());
+    ImGui::TextUnformatted(which < all.size() ? all[which].name.c_str() : "");
     ImGui::NextColumn();
   }
   ImGui::Columns(1);
@@ -121,10 +126,10 @@ void draw_quit_question(PanelState& state, std::vector<Action>& actions) {
 
 std::vector<Action> draw_panels(const Session& session, PanelState& state) {
   std::vector<Action> actions;
-  draw_tool_panel(session, actions);
-  draw_object_panel(session, actions);
+  draw_tool_panel(session, state, actions);
+  const float end = draw_object_panel(session, actions);
   if (!state.form) {
-    draw_show_panel(session, actions);
+    draw_show_panel(session, end, actions);
   }
   draw_message_panel(session, actions);
   draw_status_line(session, state);

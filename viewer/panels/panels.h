@@ -38,8 +38,9 @@ struct PanelState {
 [[nodiscard]] std::vector<Action> draw_panels(const Session& session, PanelState& state);
 
 // One by one; each adds its actions.
-void draw_tool_panel(const Session& session, std::vector<Action>& actions);
-void draw_object_panel(const Session& session, std::vector<Action>& actions);
+void draw_tool_panel(const Session& session, PanelState& state, std::vector<Action>& actions);
+/// Returns where it ends, pixels from above.
+float draw_object_panel(const Session& session, std::vector<Action>& actions);
 void draw_message_panel(const Session& session, std::vector<Action>& actions);
 void draw_status_line(const Session& session, const PanelState& state);
 void draw_help(const Session& session, PanelState& state);
@@ -48,8 +49,8 @@ void draw_file_panel(const Session& session, PanelState& state, std::vector<Acti
 /// Opens the form of an operation of the table, in place of one that is open.
 void open_form(const Operation& operation, const Session& session, PanelState& state);
 void draw_form_panel(const Session& session, PanelState& state, std::vector<Action>& actions);
-/// What is shown of the lattice, and how it is cut.
-void draw_show_panel(const Session& session, std::vector<Action>& actions);
+/// What is shown of the lattice, and how it is cut. top: pixels from above.
+void draw_show_panel(const Session& session, float top, std::vector<Action>& actions);
 void draw_quit_question(PanelState& state, std::vector<Action>& actions);
 /// While a task runs: how far it is, and how to stop it.
 void draw_progress(std::string_view task, double fraction);

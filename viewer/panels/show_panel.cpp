@@ -71,12 +71,12 @@ void draw_sharpness(const Session& session, std::vector<Action>& actions) {
 
 }  // namespace
 
-void draw_show_panel(const Session& session, std::vector<Action>& actions) {
+void draw_show_panel(const Session& session, float top, std::vector<Action>& actions) {
   if (session.lattice().empty()) {
     return;
   }
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos(ImVec2(size.x - kMargin, size.y * 0.42F), ImGuiCond_Always, ImVec2(1, 0));
+  ImGui::SetNextWindowPos(ImVec2(size.x - kMargin, top + kMargin), ImGuiCond_Always, ImVec2(1, 0));
   ImGui::SetNextWindowSize(ImVec2(kWidth + 40, 0));
   ImGui::Begin("show", nullptr, kFixed);
   Show show = session.show();

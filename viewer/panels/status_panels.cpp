@@ -2,11 +2,34 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string>
 
 #include "viewer/panels/fixed_panel.h"
 #include "viewer/panels/panels.h"
 
 namespace espalier::viewer {
+
+namespace {
+
+/// How much there is to see, and how long a frame takes if that is known.
+std::string counts_of(const Session& session, double frame_seconds) {
+  std::size_t n_points = 0;
+  std::size_t n_triangles = 0;
+  for (const auto& [name, model] : session.bent_models().all()) {
+    n_points += model.model().points().size();
+    n_triangles += model.drawing().triangles().size() / 3;
+  }
+  std::string text = std::to_string(n_points) + " points   " + std::to_string(n_triangles) +
+                     " triangles   " + std::to_string(session.elements().n_vertices) + " controls";
+  if (frame_seconds > 0) {
+    char time[32];
+    std::snprintf(time, sizeof time, "   %6.1f ms", 1e3 * frame_seconds);
+    text += time;
+  }
+  return text;
+}
+
+}  // namespace
 
 void draw_message_panel(const Session& session, std::vector<Action>& actions) {
   if (session.messages().empty()) {
@@ -41,12 +64,9 @@ void draw_status_line(const Session& session, const PanelState& state) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
   ImGui::Begin("status", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
   ImGui::TextUnformatted(session.status().c_str());
-  if (state.frame_seconds > 0) {
-    char time[32];
-    std::snprintf(time, sizeof time, "%.1f ms", 1e3 * state.frame_seconds);
-    ImGui::SameLine(size.x - ImGui::CalcTextSize(time).x - 12);
-    ImGui::TextColored(kFaint, "%s", time);
-  }
+  const std::string counts = counts_of(session, state.frame_seconds);
+  ImGui::SameLine(size.x - ImGui::CalcTextSize(counts.c_str()).x - 12);
+  ImGui::TextColored(kFaint, "%s", counts.c_str());
   ImGui::End();
   ImGui::PopStyleVar();
 }

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <string>
 
+#include "deform/scene/operations.h"
 #include "viewer/panels/fixed_panel.h"
 #include "viewer/panels/panels.h"
 
@@ -38,25 +41,68 @@ void command_button(const char* label, const char* chord, float width,
   }
 }
 
+/// A list of operations; the one that is chosen opens its form.
+void operation_menu(const char* title, const std::function<bool(const std::string&)>& has,
+                    const Session& session, PanelState& state) {
+  ImGui::SetNextItemWidth(-1);
+  if (!ImGui::BeginCombo((std::string("##") + title).c_str(), title, ImGuiComboFlags_HeightLarge)) {
+    return;
+  }
+  for (const Operation& operation : operations()) {
+    if (has(operation.name)) {
+      if (ImGui::Selectable(operation.name.c_str())) {
+        open_form(operation, session, state);
+      }
+      if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", operation.summary.c_str());
+      }
+    }
+  }
+  ImGui::EndCombo();
+}
+
+bool makes_lattices(const std::string& operation) {
+  return operation.starts_with("new ") || operation == "convert";
+}
+
+bool edits_lattices(const std::string& operation) {
+  constexpr std::array<const char*, 11> kEdits = {"refine",    "extrude", "attach", "split",
+                                                  "delete",    "merge",   "weld",   "mirror",
+                                                  "transform", "relax",   "crease"};
+  return std::find(kEdits.begin(), kEdits.end(), operation) != kEdits.end();
+}
+
+bool poses_lattices(const std::string& operation) {
+  return operation.starts_with("pose ") || operation == "pull" || operation == "set pose";
+}
+
 /// What to do next.
 const char* advice(const Session& session) {
   const bool is_bound =
       std::any_of(session.scene().bound.begin(), session.scene().bound.end(),
                   [&](const auto& entry) { return entry.first.second == session.lattice(); });
+  if (session.scene().models.empty()) {
+    return "Open a model: press F2, or drop its file here.";
+  }
+  if (session.lattice().empty()) {
+    return "Make a lattice round it: press n for a box, or choose from the list below.";
+  }
   switch (session.mode()) {
     case Mode::Lattice:
-      return "Shape the lattice round the part that is to bend.";
+      return is_bound ? "Bound: go on to Pose. Changing the lattice at rest unties it."
+                      : "Shape the lattice round the part that is to bend: press 3, click a face, "
+                        "e grows a cell. Then b binds the model.";
     case Mode::Bind:
-      return is_bound ? "Bound. Green points are inside and will follow."
+      return is_bound ? "Bound. Green points are inside and will follow: go on to Pose."
                       : "Press Bind: it finds the points that the lattice holds.";
     default:
-      return is_bound ? "Move control points: the models follow."
+      return is_bound ? "Select control points and move them: the models follow."
                       : "Nothing is bound to this lattice yet: press b.";
   }
 }
 
 void draw_kinds(const Session& session, float width, std::vector<Action>& actions) {
-  constexpr std::array<const char*, 4> kKinds = {"Vertex", "Edge", "Face", "Cell"};
+  constexpr std::array<const char*, 4> kKinds = {"Vertex (1)", "Edge (2)", "Face (3)", "Cell (4)"};
   for (int i = 0; i < 4; ++i) {
     const auto kind = static_cast<ElementKind>(i);
     if (choice(kKinds.at(static_cast<std::size_t>(i)), session.element_kind() == kind, width)) {
@@ -80,6 +126,9 @@ void draw_handling(const Session& session, std::vector<Action>& actions) {
   ImGui::Checkbox("Handles", &handling.has_gizmo);
   ImGui::SameLine();
   ImGui::Checkbox("Wireframe", &handling.has_wireframe);
+  bool is_matcap = handling.shading == Shading::Matcap;
+  ImGui::Checkbox("Shiny ball (matcap)", &is_matcap);
+  handling.shading = is_matcap ? Shading::Matcap : Shading::Phong;
   ImGui::TextColored(kFaint, "Mirror");
   constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -97,13 +146,14 @@ void draw_handling(const Session& session, std::vector<Action>& actions) {
 
 }  // namespace
 
-void draw_tool_panel(const Session& session, std::vector<Action>& actions) {
+void draw_tool_panel(const Session& session, PanelState& state, std::vector<Action>& actions) {
   ImGui::SetNextWindowPos(ImVec2(kMargin, kMargin));
   ImGui::SetNextWindowSize(ImVec2(kWidth, 0));
   ImGui::Begin("tools", nullptr, kFixed);
   const float full = ImGui::GetContentRegionAvail().x;
   const float half = (full - ImGui::GetStyle().ItemSpacing.x) / 2;
-  constexpr std::array<const char*, 3> kModes = {"1  Lattice", "2  Bind", "3  Pose"};
+  constexpr std::array<const char*, 3> kModes = {"Lattice  (ctrl+1)", "Bind  (ctrl+2)",
+                                                 "Pose  (ctrl+3)"};
   for (int i = 0; i < 3; ++i) {
     const auto mode = static_cast<Mode>(i);
     if (choice(kModes.at(static_cast<std::size_t>(i)), session.mode() == mode, full)) {
@@ -126,8 +176,11 @@ void draw_tool_panel(const Session& session, std::vector<Action>& actions) {
     if (session.mode() == Mode::Lattice) {
       command_button("Extrude (e)", "e", half, actions);
       command_button("New box  (n)", "n", full, actions);
+      operation_menu("another lattice ...", makes_lattices, session, state);
+      operation_menu("change the lattice ...", edits_lattices, session, state);
     } else {
       command_button("At rest", "alt+g", half, actions);
+      operation_menu("pose a limb ...", poses_lattices, session, state);
     }
     draw_handling(session, actions);
   }

@@ -45,6 +45,10 @@ struct PointSet {
   float hidden_opacity = 0.3F;
 };
 
+/// How meshes are lit: as by lamps in a studio, or from the picture of a shiny ball, which
+/// shows dents and folds better.
+enum class Shading { Phong, Matcap };
+
 /// A vertical gradient.
 struct Background {
   glm::vec3 top{0.97F, 0.975F, 0.98F};

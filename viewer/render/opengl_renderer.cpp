@@ -312,6 +312,7 @@ void OpenglRenderer::set_view(const GlProgram& program, const Shot& shot, const 
 
 void OpenglRenderer::draw_meshes(const Shot& shot, bool is_opaque) const {
   shaders_.mesh.use();
+  shaders_.mesh.set("is_matcap", shot.shading == Shading::Matcap ? 1.F : 0.F);
   for (const ItemId id : shot.items) {
     const GpuItem& item = items_.at(id.value);
     if (item.kind == Kind::Mesh && (item.opacity == 1) == is_opaque) {

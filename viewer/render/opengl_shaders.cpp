@@ -57,6 +57,7 @@ void main() {
 constexpr const char* kMeshFragment = R"(
 uniform vec3 color;
 uniform float has_texture;
+uniform float is_matcap;
 uniform sampler2D image;
 in vec3 eye_position;
 in vec2 texture_place;
@@ -92,9 +93,26 @@ vec3 own_color() {
   return has_texture > 0.0 && texture_place.x > -9e3 ? covered : linear(color);
 }
 
+// A ball of dark lacquer in the same studio, looked up where it has this normal.
+vec3 ball(vec3 normal, vec3 to_eye) {
+  vec3 right = normalize(vec3(to_eye.z, 0.0, -to_eye.x));
+  vec2 at = vec2(dot(normal, right), dot(normal, cross(to_eye, right)));
+  float rim = smoothstep(0.55, 1.0, length(at));
+  float key = smoothstep(1.3, 0.0, distance(at, vec2(-0.40, 0.45)));
+  float window = smoothstep(0.30, 0.12, distance(at, vec2(-0.38, 0.45)));
+  float fill = smoothstep(0.45, 0.0, distance(at, vec2(0.62, -0.45)));
+  return own_color() * (0.05 + 0.95 * key * key) * (1.0 - 0.75 * rim)
+         + 0.30 * window * key_light + 0.22 * fill * vec3(0.55, 0.70, 1.0)
+         + 0.10 * rim * max(at.y, 0.0) * sky_light;
+}
+
 void main() {
   vec3 to_eye = projection[2][3] == 0.0 ? vec3(0.0, 0.0, 1.0) : normalize(-eye_position);
   vec3 normal = lit_normal(to_eye);
+  if (is_matcap > 0.0) {
+    pixel = vec4(ball(normal, to_eye), opacity);
+    return;
+  }
   vec3 light = mix(floor_light, sky_light, 0.5 + 0.5 * normal.y)
              + key_light * wrapped(dot(normal, key_direction))
              + fill_light * wrapped(dot(normal, fill_direction))

@@ -17,7 +17,7 @@ inline constexpr GLuint kColorAttribute = 2;     ///< Of a segment or dot.
 struct OpenglShaders {
   GlProgram background;  ///< Three vertices; vec3 top, bottom; vec2 heights: of the lower and upper
                          ///< edge of the viewport in the picture, from 0 to 1.
-  GlProgram mesh;        ///< vec3 color; float unit, has_texture; the texture is in unit 0.
+  GlProgram mesh;    ///< vec3 color; float unit, has_texture, is_matcap; the texture is in unit 0.
   GlProgram lines;   ///< Four vertices an instance; float width, least_w, only_core, round_ends.
   GlProgram points;  ///< Four vertices an instance; float diameter, outline, least_w, only_core.
 

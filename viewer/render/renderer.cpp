@@ -189,7 +189,7 @@ Renderer::Item& Renderer::existing(ItemId id) {
 
 Shot Renderer::shot(const Camera& camera, int width, int height) const {
   check(camera);
-  Shot shot{camera, width, height, background_, {}};
+  Shot shot{camera, width, height, background_, shading_, {}};
   for (const ItemId id : IdRange<ItemId>(items_.size())) {
     const Item& item = items_[id.index()];
     if (!item.is_removed && item.is_visible) {

@@ -23,6 +23,7 @@ struct Shot {
   int width;
   int height;
   Background background;
+  Shading shading;
   std::vector<ItemId> items;  ///< The visible ones, in the order they were added.
 };
 
@@ -55,6 +56,8 @@ class Renderer {
   /// Whether a mesh's triangles are outlined; at first they are not.
   void set_wireframe(ItemId mesh, bool has_wireframe);
   void set_background(const Background& background) { background_ = background; }
+  /// At first Phong.
+  void set_shading(Shading shading) { shading_ = shading; }
 
   /// Draws into the frame buffer of the window, width × height pixels.
   void draw(const Camera& camera, int width, int height);
@@ -91,6 +94,7 @@ class Renderer {
 
   std::vector<Item> items_;  // the place is the id
   Background background_;
+  Shading shading_ = Shading::Phong;
 };
 
 }  // namespace espalier::viewer
