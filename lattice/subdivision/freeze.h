@@ -21,12 +21,12 @@ inline constexpr double kGradientToleranceFactor = 100;
 
 /// How exact an adaptive freeze is, leaves and jumps across the borders of patches included. Where
 /// points go, x', is within the tolerance; ∂x'/∂x, whose error falls more slowly, within the
-/// gradient tolerance along inner lines, and along smooth boundary lines of three cells. Leaves end
-/// where round-off of coordinates is as large: at about 1e-6 for the valence 5, 1e-4 for 8. Where
-/// more cells meet at a smooth boundary, in a fan, and at some nodes on the boundary, the
-/// subdivision surface's own derivative has no limit, and no tolerance makes the error small.
-/// With most_levels reached (with 8, about 2e-6 at nodes of hexahedra, 1e-5 at finite creases and
-/// 2e-5 in pyramids) x' is only as exact as these levels, and ∂x'/∂x, at inner nodes, to about
+/// gradient tolerance along inner lines. Leaves end where round-off of coordinates is as large: at
+/// about 1e-6 for the valence 5, 1e-4 for 8. Nothing is promised of ∂x'/∂x where three or more
+/// cells meet at a smooth boundary: there the subdivision surface's own derivative converges
+/// slowly, or, in a fan of more and at some nodes, to no limit. With three its error stays below
+/// 0.3. With most_levels reached (with 8, about 2e-6 at nodes of hexahedra, 1e-5 at finite creases
+/// and 2e-5 in pyramids) x' is only as exact as these levels, and ∂x'/∂x, at inner nodes, to about
 /// 0.3 · 0.7^levels. The volume's boundary at leaves is as exact as x'.
 struct AdaptiveOptions {
   double tolerance = 1e-5;  ///< of positions, relative to the lattice's diagonal, for moves of

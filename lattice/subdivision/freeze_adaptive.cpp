@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
@@ -418,13 +419,22 @@ double gradient_tolerance(const AdaptiveOptions& options) {
                                         : kGradientToleranceFactor * options.tolerance;
 }
 
+/// The largest coordinate of a lattice's rest points, in lengths of its shortest edge.
+double coordinate_scale(const SubdivisionLattice& lattice) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const EdgeId edge : lattice.complex->edges()) {
+    const auto ends = lattice.complex->vertices(edge);
+    shortest = std::min(
+        shortest, glm::distance(lattice.rest[ends[0].index()], lattice.rest[ends[1].index()]));
+  }
+  const Box box = box_of(lattice.rest);
+  const glm::dvec3 farthest = glm::max(glm::abs(box.min), glm::abs(box.max));
+  return std::max({farthest.x, farthest.y, farthest.z}) / shortest;
+}
+
 /// What is asked of the leaves in cells of a level: as cells shrink, so do their errors. The cells
 /// of the first refinement may still be all there is of a polygon.
-LeafAccuracy accuracy_of(const AdaptiveOptions& options, const std::vector<glm::dvec3>& rest,
-                         int level) {
-  const Box box = box_of(rest);
-  const glm::dvec3 farthest = glm::max(glm::abs(box.min), glm::abs(box.max));
-  const double scale = std::max({farthest.x, farthest.y, farthest.z}) / (2 * box.radius());
+LeafAccuracy accuracy_of(const AdaptiveOptions& options, double scale, int level) {
   const int halvings = std::max(0, level - 1);
   return {options.tolerance / std::pow(kRefinementRate, halvings),
           gradient_tolerance(options) / std::pow(kGradientRefinementRate, halvings),
@@ -447,6 +457,7 @@ void tell_errors(VolumeBuilder& volume, const AdaptiveOptions& options, double e
 Volume freeze_adaptive(const SubdivisionLattice& lattice, const AdaptiveOptions& options,
                        const Progress& progress) {
   check(options);
+  const double scale = coordinate_scale(lattice);
   int n_levels = options.most_levels;
   VolumeBuilder volume;
   auto complex = lattice.complex;
@@ -459,8 +470,8 @@ Volume freeze_adaptive(const SubdivisionLattice& lattice, const AdaptiveOptions&
   for (int level = 0; !cells.empty(); ++level) {
     progress.update("freeze", static_cast<double>(level) / (n_levels + 1));
     volume.begin_level(rows);
-    LevelFreezer freezer(*complex, sharpness, lattice.scheme,
-                         accuracy_of(options, lattice.rest, level), volume);
+    LevelFreezer freezer(*complex, sharpness, lattice.scheme, accuracy_of(options, scale, level),
+                         volume);
     std::vector<CellId> rest;
     for (const CellId cell : cells) {
       if (freezer.freeze_exactly(cell)) {

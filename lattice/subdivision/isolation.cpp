@@ -16,8 +16,8 @@ constexpr double kPositionError = 0.1;
 constexpr double kGradientError = 1;
 constexpr double kGradientErrorOfThree = 3;
 
-/// Differences of points lose this much of their size 1 to round-off.
-constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+/// What differences of points of size 1 may lose to round-off, as certificates bound it.
+constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
 constexpr int kMostLevels = 60;
 
 /// The largest eigenvalue at a vertex of valence n, of frequency k.
@@ -32,9 +32,8 @@ double eigenvalue(int n, int k) {
 IsolationRates isolation_rates(int n_cells, bool is_boundary) {
   const int n = is_boundary ? 2 * n_cells : n_cells;
   const double first = eigenvalue(n, 1);
-  const double size = is_boundary ? std::min(0.5, first) : first;
-  const double position = std::max({first * first, eigenvalue(n, 2), size * size});
-  return {position, position / size, size};
+  const double position = std::max(first * first, eigenvalue(n, 2));
+  return {position, is_boundary ? 1 : position / first, first};
 }
 
 double levels_within(double tolerance, double error, double rate) {
