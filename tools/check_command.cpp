@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "deform/evaluate/displace.h"
 #include "deform/injectivity/boundary.h"
@@ -36,6 +37,7 @@ constexpr double kFarthest = 1e6;
 
 /// Pairs of faces that are listed.
 constexpr std::size_t kMostShown = 100;
+constexpr std::size_t kMostPlacesTold = 10;  // in the text; the JSON holds all
 
 /// All that is found out.
 struct CheckReport {
@@ -142,6 +144,27 @@ Json json_of(const CheckReport& report) {
   return json;
 }
 
+/// Each place once, though all patches that meet there fold, and not thousands of them.
+std::string folds_text(std::span<const Fold> folds) {
+  std::vector<glm::dvec3> told;
+  std::string text;
+  const auto is_near = [](const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::distance(a, b) <= 1e-9 * (glm::length(a) + glm::length(b));
+  };
+  for (std::size_t i = 0; i < folds.size(); ++i) {
+    if (told.size() == kMostPlacesTold) {
+      return text + fmt::format("  and in {} patches more\n", folds.size() - i);
+    }
+    const glm::dvec3& rest = folds[i].rest;
+    if (std::none_of(told.begin(), told.end(), [&](const auto& p) { return is_near(p, rest); })) {
+      told.push_back(rest);
+      text += fmt::format("  folded at rest point ({}, {}, {}): determinant {}\n", rest.x, rest.y,
+                          rest.z, folds[i].determinant);
+    }
+  }
+  return text;
+}
+
 std::string text_of(const std::string& path, const CheckReport& report) {
   if (!report.defects.empty()) {
     std::string text = fmt::format("{}: invalid\n", path);
@@ -151,13 +174,11 @@ std::string text_of(const std::string& path, const CheckReport& report) {
     return text;
   }
   std::string text =
-      fmt::format("{}: valid\n  local: {} ({} patches)\n  boundary: {}\n  injective: {}\n", path,
+      fmt::format("{}: valid\n  local: {} ({} patch{})\n  boundary: {}\n  injective: {}\n", path,
                   name_of(report.local.verdict), report.local.n_patches,
-                  name_of(report.boundary.verdict), name_of(injective_of(report)));
-  for (const Fold& fold : report.local.folds) {
-    text += fmt::format("  folded at rest point ({}, {}, {}): determinant {}\n", fold.rest.x,
-                        fold.rest.y, fold.rest.z, fold.determinant);
-  }
+                  report.local.n_patches == 1 ? "" : "es", name_of(report.boundary.verdict),
+                  name_of(injective_of(report)));
+  text += folds_text(report.local.folds);
   if (!report.local.undecided.empty()) {
     text += fmt::format("  undecided in {} boxes\n", report.local.undecided.size());
   }

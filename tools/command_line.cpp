@@ -53,7 +53,7 @@ std::string type_name(const Parameter& parameter) {
     case ParameterType::Integers:
       return "N N N";
     case ParameterType::Numbers:
-      return "X Y Z";
+      return parameter.count == 6 ? "X Y Z X Y Z" : "X Y Z";
     case ParameterType::Choice: {
       std::string words;
       for (const std::string& choice : parameter.choices) {

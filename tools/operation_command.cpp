@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <utility>
 
@@ -62,6 +63,14 @@ void check_output(const Scene& inputs, const std::string& path) {
     require_same_format(path, inputs.models.begin()->second);
   } else {
     check_lattice_output(path);
+  }
+}
+
+/// A refined model is a new one of points and faces, whatever it was made from.
+void require_obj_path(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (!extension.empty() && extension != ".obj" && extension != ".OBJ") {
+    throw FileError(path, "a refined model is written as .obj; name the output *.obj");
   }
 }
 
@@ -183,6 +192,8 @@ ExitStatus run(const Operation& operation, const Arguments& arguments, const Ses
   Scene scene = open_inputs(operation, complete, session.progress);
   if (makes_lattice(operation, complete, scene)) {
     check_lattice_output(output);
+  } else if (operation.name == "refine") {
+    require_obj_path(output);
   } else {
     check_output(scene, output);
   }

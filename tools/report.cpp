@@ -177,8 +177,8 @@ std::string counts_text(const TensorLattice& lattice) {
 }
 
 std::string counts_text(const ThbLattice& lattice) {
-  return fmt::format("{} control points on {} levels", lattice.rest.size(),
-                     lattice.hierarchy->n_levels());
+  const int n = lattice.hierarchy->n_levels();
+  return fmt::format("{} control points on {} level{}", lattice.rest.size(), n, n == 1 ? "" : "s");
 }
 
 /// How each axis ends, "knots" where it has its own.

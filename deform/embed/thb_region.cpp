@@ -11,7 +11,7 @@ namespace espalier {
 namespace {
 
 constexpr int kMostRings = 16;
-constexpr std::size_t kMostRefined = std::size_t{1} << 19;  // cells, each made eight
+constexpr std::size_t kMostRefined = std::size_t{1} << 17;  // cells, each made eight
 
 /// Refuses before the lattice grows.
 void require_few(std::size_t n_cells, int level) {

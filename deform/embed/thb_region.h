@@ -28,7 +28,7 @@ namespace espalier {
 /// the domain. A cubic function reaches over four cells of its level, so that it takes one ring to
 /// get a control point of level 1 inside. Throws ParameterError for a level below 1 or above
 /// kMostThbLevels − 1, for less than 0 or more than 16 rings, if the lattice holds no point, and
-/// before more than half a million cells of a level are refined.
+/// before more than 131072 cells of a level are refined.
 [[nodiscard]] ThbLattice refined_under(const ThbLattice& lattice,
                                        std::span<const glm::dvec3> points, int level,
                                        int n_rings = 0, const Progress& progress = {});

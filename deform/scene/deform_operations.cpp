@@ -97,8 +97,9 @@ void require_one_for_each_lattice(const Arguments& arguments, const std::string&
   const std::size_t n = arguments.texts(name).size();
   const std::size_t n_lattices = arguments.texts("lattice").size();
   if (n != 0 && n != n_lattices) {
-    throw ParameterError("'" + name + "' is given " + std::to_string(n) + " times for " +
-                         std::to_string(n_lattices) + " lattices: give one for each, in order");
+    throw ParameterError("'" + name + "' is given " + std::to_string(n) + " time" +
+                         (n == 1 ? "" : "s") + " for " + std::to_string(n_lattices) +
+                         " lattices: give one for each, in order");
   }
 }
 
@@ -208,6 +209,9 @@ Scene made_dense(const Scene& scene, const Arguments& arguments, const Progress&
 Scene densify(const Scene& scene, const Arguments& arguments, const Progress& progress) {
   DensifyOptions options = parse_densify(arguments.text("method"));
   if (arguments.has("length")) {
+    if (arguments.has("lattice")) {
+      throw ParameterError("'length' and --lattice exclude each other: the lattice gives a length");
+    }
     options.length = arguments.number("length");
     if (!(options.length > 0)) {
       throw ParameterError("'length' must be positive");

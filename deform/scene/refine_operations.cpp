@@ -1,5 +1,8 @@
 /// Operations that refine lattices of all types, and models.
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <initializer_list>
 #include <string>
 #include <utility>
@@ -19,6 +22,8 @@ namespace {
 using Type = ParameterType;
 
 constexpr int kMostLevels = 8;
+constexpr double kMostControlsMade = 1 << 22;  // a gigabyte
+constexpr double kMostCellsMade = 1 << 20;     // seconds
 
 void require_absent(const Arguments& arguments, std::initializer_list<const char*> names,
                     const std::string& reason) {
@@ -37,6 +42,26 @@ int levels_of(const Arguments& arguments) {
   return levels;
 }
 
+/// Refuses before anything grows. n: cells, or control points.
+void require_refinable(double n, double most, const char* what) {
+  if (n > most) {
+    throw ParameterError(
+        fmt::format("'levels' would make {:.0f} {}, at most {:.0f} are made: refine "
+                    "fewer times, or where it matters",
+                    n, what, most));
+  }
+}
+
+/// Each refinement puts a knot into every span.
+double n_controls_after(const TensorLattice& lattice, int levels) {
+  double n = 1;
+  for (const TensorAxis& axis : lattice.axes) {
+    const double n_added = static_cast<double>(axis.spans().size()) * (std::ldexp(1.0, levels) - 1);
+    n *= axis.n_controls() + (axis.degree() > 0 ? n_added : 0);
+  }
+  return n;
+}
+
 Lattice refined_by(const SubdivisionLattice& lattice, const Scene&, const Arguments& arguments,
                    const Progress& progress) {
   require_absent(arguments, {"box", "model", "only", "grow", "level"}, "thb lattices");
@@ -52,6 +77,8 @@ Lattice refined_by(const TensorLattice& lattice, const Scene&, const Arguments& 
   require_absent(arguments, {"box", "model", "only", "grow", "level"}, "thb lattices");
   TensorLattice result = lattice;
   if (!arguments.flag("elevate")) {
+    require_refinable(n_controls_after(lattice, levels_of(arguments)), kMostControlsMade,
+                      "control points");
     for (int level = levels_of(arguments); level > 0; --level) {
       result = refined(result);
     }
@@ -115,6 +142,9 @@ Lattice refined_by(const ThbLattice& lattice, const Scene& scene, const Argument
                                    {box[3], box[4], box[5]}));
   }
   require_absent(arguments, {"level"}, "a --box or a --model");
+  require_refinable(
+      static_cast<double>(lattice.hierarchy->leaves().size()) * std::pow(8.0, levels_of(arguments)),
+      kMostCellsMade, "cells");
   ThbLattice result = lattice;
   for (int left = levels_of(arguments); left > 0; --left) {
     result = refined_everywhere(std::move(result));
@@ -179,7 +209,7 @@ std::vector<Operation> refine_operations() {
          .type = Type::Integer,
          .help = "what the box, or up to what the model's cells are refined to, from cells of the "
                  "level before (default 1)"},
-        result_parameter("the refined lattice or model")},
+        result_parameter("the refined lattice, or model (.obj)")},
        refine_object},
   };
 }

@@ -87,8 +87,8 @@ TEST(ThbRegion, names_what_cannot_be) {
 }
 
 TEST(ThbRegion, that_would_be_huge_is_refused_before_it_grows) {
-  const ThbLattice lattice = make_thb_lattice({82, 82, 82}, {1, 1, 1}, {});
-  std::vector<glm::dvec3> points;  // 16 rings round them cover all 81 × 81 × 81 cells
+  const ThbLattice lattice = make_thb_lattice({52, 52, 52}, {1, 1, 1}, {});
+  std::vector<glm::dvec3> points;  // 16 rings round them cover all 51 × 51 × 51 cells
   for (int i = 0; i < 27; ++i) {
     points.emplace_back((i % 3 + 0.5) / 3, (i / 3 % 3 + 0.5) / 3, (i / 9 + 0.5) / 3);
   }
@@ -97,7 +97,7 @@ TEST(ThbRegion, that_would_be_huge_is_refused_before_it_grows) {
     FAIL();
   } catch (const ParameterError& error) {
     EXPECT_STREQ(error.what(),
-                 "level 1 would refine 531441 cells, at most 524288 are refined at once: take "
+                 "level 1 would refine 132651 cells, at most 131072 are refined at once: take "
                  "fewer rings or levels");
   }
 }

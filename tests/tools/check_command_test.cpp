@@ -46,6 +46,10 @@ TEST_F(CheckCommand, gives_witnesses_of_a_fold) {
     // 1 − 3.5 · B'(3/4) · B(0)², B' = 2x − 3/2 x².
     EXPECT_NEAR(fold["determinant"].get<double>(), 1 - 3.5 * (1.5 - 27. / 32) * 4 / 9, 1e-12);
   }
+  const std::string text = run({"check", "folded.json"}).out;
+  const std::size_t first = text.find("folded at rest point (4.75");
+  EXPECT_NE(first, std::string::npos) << text;
+  EXPECT_EQ(text.find("folded at", first + 1), std::string::npos) << text;  // one place, once
   EXPECT_EQ(
       report({"folded.json", "--drag", std::to_string(kMiddle) + "=1,0,0"}, 1)["largest_step"], 0);
 }

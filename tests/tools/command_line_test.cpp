@@ -179,6 +179,8 @@ TEST_F(CommandLine, tells_its_version_and_helps_with_every_command) {
       EXPECT_NE(page.find(parameter.help), std::string::npos) << parameter.name;
     }
   }
+  EXPECT_NE(done({"refine", "--help"}).find("--box X Y Z X Y Z "), std::string::npos);
+  EXPECT_NE(done({"transform", "--help"}).find("--move X Y Z "), std::string::npos);
 }
 
 TEST_F(CommandLine, a_report_replaces_what_is_no_unicode_in_a_name) {

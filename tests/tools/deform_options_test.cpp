@@ -103,7 +103,7 @@ TEST_F(DeformOptions, refuses_more_or_fewer_poses_than_lattices) {
   const auto outcome = run({"deform", "model.obj", "--lattice", "box.json", "--lattice",
                             "other.json", "--pose", "shifted.json", "-o", "out.obj"});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.errors, HasSubstr("--pose is given 1 times for 2 lattices"));
+  EXPECT_THAT(outcome.errors, HasSubstr("--pose is given 1 time for 2 lattices"));
 }
 
 }  // namespace

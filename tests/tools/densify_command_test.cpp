@@ -53,6 +53,13 @@ TEST_F(DensifyCommand, makes_edges_as_short_as_a_length_or_as_cells_of_a_lattice
   }
 }
 
+TEST_F(DensifyCommand, takes_a_length_or_a_lattice_and_not_both) {
+  EXPECT_EQ(refusal({"densify", "plate.obj", "--length", "0.3", "--lattice", "box.json", "-o",
+                     "dense.obj"},
+                    2),
+            "--length and --lattice exclude each other: the lattice gives a length");
+}
+
 TEST_F(DensifyCommand, lets_deform_bend_a_coarse_model) {
   done({"deform", "plate.obj", "--lattice", "box.json", "--pose", "bent.json", "--densify",
         "midpoint", "-o", "fine.obj"});

@@ -1,5 +1,7 @@
 /// espalier new, convert and refine.
 
+#include <gmock/gmock.h>
+
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -217,9 +219,16 @@ TEST_F(LatticeCommands, refine_refuses_levels_out_of_range_and_a_scheme_for_mode
   EXPECT_EQ(refusal({"refine", "cube.obj", "--scheme", "mj96", "-o", "fine.obj"}, 2),
             "--scheme is for lattices; a model is refined as a Catmull-Clark surface");
   EXPECT_EQ(refusal({"refine", "cube.obj", "-o", "fine.json"}, 1),
-            "fine.json: cannot write cube.obj as '.json': a model keeps its format; name the "
-            "output *.obj");
+            "fine.json: a refined model is written as .obj; name the output *.obj");
   EXPECT_EQ(files(), (std::vector<std::string>{"box.json", "cube.obj"}));
+}
+
+TEST_F(LatticeCommands, refine_makes_an_obj_of_a_model_in_any_format) {
+  write_file("tile.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
+  done({"refine", "tile.off", "-o", "fine.obj"});
+  EXPECT_THAT(done({"info", "fine.obj"}), ::testing::HasSubstr("model with 9 points, 4 faces"));
+  EXPECT_EQ(refusal({"refine", "tile.off", "-o", "fine.off"}, 1),
+            "fine.off: a refined model is written as .obj; name the output *.obj");
 }
 
 TEST_F(LatticeCommands, convert_says_that_a_closed_mesh_cannot_be_extruded) {

@@ -80,7 +80,7 @@ TEST_F(LockOption, stands_for_all_lattices_or_repeats_in_their_order) {
   EXPECT_THAT(both({"--lock", "C0", "--lock", "none"}).output, HasSubstr("3 faces are torn"));
   const auto named = both({"--lock", "C0:0"});
   EXPECT_EQ(named.status, 2);
-  EXPECT_THAT(named.errors, HasSubstr("--lock is given 1 times for 2 lattices"));
+  EXPECT_THAT(named.errors, HasSubstr("--lock is given 1 time for 2 lattices"));
 }
 
 TEST_F(LockOption, tells_that_a_model_that_crosses_nothing_locks_nothing) {

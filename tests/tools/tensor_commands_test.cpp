@@ -289,6 +289,19 @@ TEST_F(TensorCommands, nonsense_is_refused_and_nothing_written) {
   EXPECT_THAT(files(), ::testing::Not(::testing::Contains("x.json")));
 }
 
+TEST_F(TensorCommands, refine_refuses_what_would_be_huge_before_it_grows) {
+  make_all();
+  done({"new", "bspline", "--counts", "30", "30", "30", "-o", "fine.json"});
+  done({"new", "thb", "--counts", "30", "30", "30", "-o", "fine thb.json"});
+  EXPECT_EQ(refusal({"refine", "fine.json", "--levels", "3", "-o", "x.json"}, 2),
+            "--levels would make 10503459 control points, at most 4194304 are made: refine fewer "
+            "times, or where it matters");
+  EXPECT_EQ(refusal({"refine", "fine thb.json", "--levels", "3", "-o", "x.json"}, 2),
+            "--levels would make 10077696 cells, at most 1048576 are made: refine fewer times, or "
+            "where it matters");
+  EXPECT_THAT(done({"info", "fine thb.json"}), HasSubstr("27000 control points on 1 level:"));
+}
+
 TEST_F(TensorCommands, a_pose_must_be_of_such_a_lattice) {
   make_all();
   done({"new", "box", "-o", "box.json"});
