@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
@@ -122,21 +123,36 @@ TEST(FreezeAdaptive, is_exact_in_every_family_away_from_the_leaves) {
   }
 }
 
-TEST(FreezeAdaptive, grows_linearly_with_the_digits_on_lines) {
-  const SubdivisionLattice cylinder = test::prism(test::flower_section(5), 1);
-  std::vector<double> n_patches;
-  std::vector<double> n_bytes;
+/// Patches and bytes for 1e-3, 1e-5, 1e-7 and 1e-9.
+std::array<std::vector<double>, 2> sizes_of(const SubdivisionLattice& lattice,
+                                            double gradient_tolerance) {
+  std::array<std::vector<double>, 2> sizes;
   for (const double tolerance : {1e-3, 1e-5, 1e-7, 1e-9}) {
-    const Volume volume = freeze_adaptive(cylinder, {.tolerance = tolerance});
-    n_patches.push_back(static_cast<double>(volume.n_patches()));
-    n_bytes.push_back(static_cast<double>(volume.bytes()));
+    const Volume volume = freeze_adaptive(
+        lattice, {.tolerance = tolerance, .gradient_tolerance = gradient_tolerance});
+    sizes[0].push_back(static_cast<double>(volume.n_patches()));
+    sizes[1].push_back(static_cast<double>(volume.bytes()));
   }
-  for (const auto& sizes : {n_patches, n_bytes}) {
+  return sizes;
+}
+
+TEST(FreezeAdaptive, grows_linearly_with_the_digits_of_places_on_lines) {
+  for (const auto& sizes : sizes_of(test::prism(test::flower_section(5), 1), 1)) {
     const double step = (sizes[3] - sizes[0]) / 3;
     EXPECT_GT(step, 0);
     for (std::size_t i = 1; i < 4; ++i) {
       EXPECT_NEAR(sizes[i] - sizes[i - 1], step, 0.35 * step);
     }
+  }
+}
+
+TEST(FreezeAdaptive, grows_linearly_with_the_digits_of_derivatives_until_round_off_ends_it) {
+  for (const auto& sizes : sizes_of(test::prism(test::flower_section(5), 1), 0)) {
+    const double step = sizes[1] - sizes[0];
+    EXPECT_GT(step, 0);
+    EXPECT_NEAR(sizes[2] - sizes[1], step, 0.35 * step);
+    EXPECT_GT(sizes[3] - sizes[2], 0);
+    EXPECT_LT(sizes[3] - sizes[2], step);
   }
 }
 

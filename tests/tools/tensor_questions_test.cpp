@@ -96,12 +96,12 @@ TEST_F(TensorCommands, check_and_pull_certify_volumes_with_weights_that_differ) 
   };
   EXPECT_EQ(check("nurbs.json", 0)["local"], "certified");
   pose_lattice("nurbs.json", "posed.json", bend);
-  EXPECT_EQ(check("posed.json", 3)["local"], "certified");  // its boundary moved: undecided
+  EXPECT_EQ(check("posed.json", 0)["local"], "certified");
   Json posed = read_json("posed.json");
   posed["pose_weights"] = posed["weights"];
   posed["pose_weights"][30] = 3;
   write_json("posed.json", posed);
-  EXPECT_EQ(check("posed.json", 3)["local"], "certified");
+  EXPECT_EQ(check("posed.json", 0)["local"], "certified");
   const Json drag = check("nurbs.json", 0, {"--drag", "45=1,0.5,0"});
   const double step = drag["largest_step"];
   EXPECT_GT(step, 0.05);
@@ -115,7 +115,7 @@ TEST_F(TensorCommands, check_and_pull_certify_volumes_with_weights_that_differ) 
     }
     write_json("dragged.json", dragged);
     const bool is_folded = part > 1;
-    const Json found = check("dragged.json", is_folded ? 1 : 3);
+    const Json found = check("dragged.json", is_folded ? 1 : 0);
     EXPECT_EQ(found["local"], is_folded ? "folded" : "certified");
     EXPECT_EQ(found["folds"].empty(), !is_folded);
   }
@@ -123,7 +123,7 @@ TEST_F(TensorCommands, check_and_pull_certify_volumes_with_weights_that_differ) 
       Json::parse(done({"pull", "nurbs.json", "--model", "cloud.obj", "--pick", "2=5,0.7,0.5",
                         "--stop-at-fold", "-o", "pulled.json", "--json"}));
   EXPECT_LT(pulled["step"], 1);
-  EXPECT_NE(check("pulled.json", 3)["local"], "folded");
+  EXPECT_NE(check("pulled.json", 0)["local"], "folded");
 }
 
 TEST_F(TensorCommands, convert_takes_volumes_of_more_points_than_control_points) {
