@@ -36,8 +36,8 @@ run pose twist arm.json --from 0.52 1.41 0.004 --to 0.74 1.41 0.004 --angle 85 -
 run pose rotate arm-posed.json --about 0.53 1.41 0.004 --along 1 0 0 --axis 0 -1 0 --angle 28 \
   -o arm-posed.json
 run pose rotate arm-posed.json --about 0.37 1.41 0.004 --along 1 0 0 --axis 0 0 1 --angle 76 \
-  --falloff 0.19 -o arm-posed.json
-run check arm-posed.json --model figure.obj || [ $? -eq 3 ] # 3: nothing folds as far as it can tell
+  --falloff 0.28 -o arm-posed.json
+run check arm-posed.json --model figure.obj
 run deform figure.obj --lattice arm-posed.json -o waving.obj
 picture arm-before figure.obj arm.json --view 20,10
 picture arm-after waving.obj arm-posed.json --view 20,10
