@@ -60,8 +60,9 @@ struct BoundaryOptions {
 
 /// Looks at all pairs of faces whose boxes overlap. pose: #controls; pose_weights: those of the
 /// volume's points in the pose, or empty: as at rest. Throws ParameterError unless pose is
-/// #controls finite points within 1e18, and weights are positive. Some microseconds a face, and more where faces come near
-/// each other. The same result for any number of threads. Tells `progress` "boundary".
+/// #controls finite points within 1e18, and weights are positive. Some microseconds a face, and
+/// more where faces come near each other. The same result for any number of threads. Tells
+/// `progress` "boundary".
 [[nodiscard]] BoundaryReport check_boundary(const Volume& volume, std::span<const glm::dvec3> pose,
                                             std::span<const double> pose_weights = {},
                                             const BoundaryOptions& options = {},

@@ -17,7 +17,7 @@ namespace espalier {
                                     const Progress& progress = {});
 
 /// Without a gradient tolerance of its own, ∂x'/∂x is to be within this many tolerances.
-inline constexpr double kGradientToleranceFactor = 100;
+inline constexpr double kGradientToleranceFactor = 1000;
 
 /// How exact an adaptive freeze is, leaves and jumps across the borders of patches included. Where
 /// points go, x', is within the tolerance; ∂x'/∂x, whose error falls more slowly, within the
@@ -31,9 +31,9 @@ inline constexpr double kGradientToleranceFactor = 100;
 struct AdaptiveOptions {
   double tolerance = 1e-5;  ///< of positions, relative to the lattice's diagonal, for moves of
                             ///< about a cell; 1e-12 to 1e-1
-  double gradient_tolerance = 0;  ///< of ∂x'/∂x for the same moves; 1e-12 to 1, or 0: a hundred
+  double gradient_tolerance = 0;  ///< of ∂x'/∂x for the same moves; 1e-12 to 1, or 0: a thousand
                                   ///< times the tolerance
-  int most_levels = 8;            ///< of refinement in all directions, 1 to 8
+  int most_levels = 8;  ///< of refinement in all directions, 1 to 8
   /// Refinement in all directions also ends before the stencils of a level may have more weights
   /// than this, of twelve bytes each: cells with many faces, whose points depend on every control
   /// point, would fill any memory.
