@@ -6,12 +6,14 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
 #include <string>
 
+#include "deform/evaluate/packed_turn.h"
 #include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
 #include "lattice/core/streamed_copy.h"
@@ -24,8 +26,6 @@ constexpr double kSameStep = 1e-9;
 constexpr double kFarthest = 1e12;  // diagonals
 /// No thread is worth starting for fewer.
 constexpr std::size_t kPointsPerThread = 65536;
-/// Of a normal's part m, as a fraction of the diagonal, that its part n is not made smaller than.
-constexpr double kLeastTurn = 1e-6;
 
 /// The first row.
 glm::dvec3 slope_of_x(const glm::dmat3& slope) {
@@ -135,13 +135,12 @@ void Drag<Real>::fill_turns(const DragStart& start, const DragField& field, doub
   for_each_reached(kDragTurnRows, [&](std::size_t point, std::size_t at) {
     const glm::dmat3& J = start.gradients[point];
     const glm::dvec3 g = slope_of_x(field.slopes[point]) / unit;
-    const glm::dvec3 n = cofactors(J) * normals[point];
-    const glm::dvec3 m = J * glm::cross(normals[point], g);
-    // Only the direction counts; this length keeps both parts within the range of floats.
-    const double length = std::max(glm::length(n), kLeastTurn * unit * glm::length(m));
-    const double scale = length > 0 ? 1 / length : 0;
-    put(turns_, at, scale * n);
-    put(turns_, at + 3 * kDragBlock, scale * m);
+    const auto turn =
+        packed_turn<Real>(cofactors(J) * normals[point], J * glm::cross(normals[point], g), unit);
+    turns_[at] = turn.x;
+    turns_[at + kDragBlock] = turn.y;
+    turns_[at + 2 * kDragBlock] = turn.qx;
+    turns_[at + 3 * kDragBlock] = turn.qy;
   });
 }
 
@@ -161,6 +160,56 @@ void Drag<Real>::fill_folds(const DragStart& start, const DragField& field, doub
     }
   });
   folds_.assign(exact_folds_.begin(), exact_folds_.end());
+  fill_slope_boxes();
+}
+
+template <class Real>
+void Drag<Real>::fill_slope_boxes() {
+  slope_boxes_.resize((folds_.size() + kSegment - 1) / kSegment);
+  for (std::size_t at = 0; at < folds_.size(); ++at) {
+    SlopeBox& box = slope_boxes_[at / kSegment];
+    const auto c = static_cast<int>(at / kDragBlock % kDragFoldRows);
+    box.low[c] = std::min(box.low[c], folds_[at]);
+    box.high[c] = std::max(box.high[c], folds_[at]);
+  }
+}
+
+template <class Real>
+Real Drag<Real>::SlopeBox::largest_fall(const glm::vec<3, Real>& d) const {
+  const glm::vec<3, Real> falls = glm::max(-d * low, -d * high);
+  return falls.x + falls.y + falls.z;
+}
+
+template <class Real>
+std::size_t Drag<Real>::n_blocks_of_segment(std::size_t segment) const {
+  return std::min(kSegment, folds_.size() - segment * kSegment) / (kDragFoldRows * kDragBlock);
+}
+
+template <class Real>
+double Drag<Real>::find_falls(const glm::vec<3, Real>& d, double least, double rounding,
+                              std::span<Real> falls) const {
+  std::transform(slope_boxes_.begin(), slope_boxes_.end(), falls.begin(),
+                 [&d](const SlopeBox& box) { return box.largest_fall(d); });
+  double largest = 0;
+  const auto look_at = [&](std::size_t segment) {
+    falls[segment] = kernels_->largest_fall(&folds_[segment * kSegment],
+                                            n_blocks_of_segment(segment), glm::value_ptr(d));
+    largest = std::max(largest, static_cast<double>(falls[segment]));
+  };
+  const auto may_count = [&](Real fall) {
+    return static_cast<double>(fall) + 3 * rounding >= std::max(least, largest);
+  };
+  const auto first = std::max_element(falls.begin(), falls.end());
+  if (first == falls.end() || !may_count(*first)) {
+    return 0;
+  }
+  look_at(static_cast<std::size_t>(first - falls.begin()));
+  for (std::size_t i = 0; i < falls.size(); ++i) {
+    if (may_count(falls[i])) {
+      look_at(i);
+    }
+  }
+  return largest;
 }
 
 template <class Real>
@@ -170,36 +219,24 @@ double Drag<Real>::safe_fraction(const glm::dvec3& displacement, double margin) 
   if (!has_folds_) {
     throw ParameterError("the drag was begun without a fold check");
   }
-  constexpr std::size_t kSegment = kFoldBlocks * kDragFoldRows * kDragBlock;
-  const std::size_t n_segments = (folds_.size() + kSegment - 1) / kSegment;
+  const std::size_t n_segments = slope_boxes_.size();
   thread_local std::vector<Real> falls;
   falls.resize(n_segments);
-  const std::span<Real> segments = falls;  // of this thread, in every thread
-  const glm::vec<3, Real> d(displacement);
-  const auto n_blocks = [&](std::size_t segment) {
-    return std::min(kSegment, folds_.size() - segment * kSegment) / (kDragFoldRows * kDragBlock);
-  };
-  parallel_for(
-      n_segments,
-      [&](std::size_t i) {
-        segments[i] = kernels_->largest_fall(&folds_[i * kSegment], n_blocks(i), glm::value_ptr(d));
-      },
-      kPointsPerThread / (kFoldBlocks * kDragBlock));
   const double rounding =
       8 * std::numeric_limits<Real>::epsilon() * steepest_ * glm::length(displacement);
-  const double rounded =
-      n_segments == 0 ? 0 : static_cast<double>(*std::max_element(falls.begin(), falls.end()));
-  if (rounded + rounding < (1 - margin) * (1 - kFoldGuard)) {
+  const double limit = (1 - margin) * (1 - kFoldGuard);
+  const double rounded = find_falls(glm::vec<3, Real>(displacement), limit, rounding, falls);
+  if (rounded + rounding < limit) {
     return 1;
   }
   double fall = 0;
   for (std::size_t i = 0; i < n_segments; ++i) {
-    if (static_cast<double>(segments[i]) + 2 * rounding >= rounded) {
-      fall = std::max(fall, exact_kernels_->largest_fall(&exact_folds_[i * kSegment], n_blocks(i),
-                                                         glm::value_ptr(displacement)));
+    if (static_cast<double>(falls[i]) + 2 * rounding >= rounded) {
+      fall = std::max(
+          fall, exact_kernels_->largest_fall(&exact_folds_[i * kSegment], n_blocks_of_segment(i),
+                                             glm::value_ptr(displacement)));
     }
   }
-  const double limit = (1 - margin) * (1 - kFoldGuard);
   return fall > (1 + kSameStep) * limit ? limit / fall : 1;
 }
 
@@ -365,7 +402,8 @@ template <class Real>
 std::size_t Drag<Real>::bytes() const {
   return runs_.capacity() * sizeof(Run) +
          (places_.capacity() + turns_.capacity() + folds_.capacity()) * sizeof(Real) +
-         exact_folds_.capacity() * sizeof(double) + folded_.capacity() * sizeof(FoldedPoint);
+         slope_boxes_.capacity() * sizeof(SlopeBox) + exact_folds_.capacity() * sizeof(double) +
+         folded_.capacity() * sizeof(FoldedPoint);
 }
 
 template class Drag<float>;

@@ -78,18 +78,33 @@ class Drag {
     double start = 0;
     glm::dvec3 slope{0};
   };
+  /// Around p of a segment's points.
+  struct SlopeBox {
+    glm::vec<3, Real> low{0};
+    glm::vec<3, Real> high{0};
+
+    /// No −p · D inside is larger.
+    [[nodiscard]] Real largest_fall(const glm::vec<3, Real>& d) const;
+  };
   static constexpr std::uint16_t kAllLanes = 0xFFFF;
   static constexpr std::uint32_t kMostBlocks = 256;  // a run
-  static constexpr std::uint32_t kFoldBlocks = 64;   // that are looked at again where they stop it
+  static constexpr std::uint32_t kFoldBlocks = 8;    // a segment of folds_
+  static constexpr std::size_t kSegment = kFoldBlocks * kDragFoldRows * kDragBlock;
 
   void add_runs(std::span<const char> is_reached);
   void fill_places(const DragStart& start, const DragField& field, double unit);
   void fill_turns(const DragStart& start, const DragField& field, double unit,
                   std::span<const glm::dvec3> normals);
   void fill_folds(const DragStart& start, const DragField& field, double unit);
+  void fill_slope_boxes();
+  [[nodiscard]] std::size_t n_blocks_of_segment(std::size_t segment) const;
   /// Calls visit(point, the place of its first number among rows) for all reached points.
   template <class Visit>
   void for_each_reached(std::size_t n_rows, const Visit& visit) const;
+  /// The largest −p · D, 0 where all are below `least`. falls: #segments, of each its largest, or
+  /// any number below the result and `least` by more than 2 × rounding.
+  double find_falls(const glm::vec<3, Real>& d, double least, double rounding,
+                    std::span<Real> falls) const;
   void write(const Run& run, const Real* displacement, const DraggedPoints<Real>& out) const;
   void write_streamed(const Run& run, const Real* displacement,
                       const DraggedPoints<Real>& out) const;
@@ -109,7 +124,8 @@ class Drag {
   std::vector<Run> runs_;
   AlignedVector<Real> places_, turns_, folds_;  ///< blocks (drag_kernels.h)
   AlignedVector<double> exact_folds_;
-  std::vector<FoldedPoint> folded_;  ///< at mouse-down
+  std::vector<SlopeBox> slope_boxes_;  ///< of the segments of folds_
+  std::vector<FoldedPoint> folded_;    ///< at mouse-down
 };
 
 }  // namespace espalier

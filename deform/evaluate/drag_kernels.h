@@ -15,7 +15,7 @@ inline constexpr std::size_t kDragBlock = 16;
 /// Rows of a block of each array.
 inline constexpr std::size_t kDragPlaceRows =
     4;  ///< points x y z x y z …, three rows long; weights
-inline constexpr std::size_t kDragTurnRows = 6;  ///< n, then m: the normal goes along n + D × m
+inline constexpr std::size_t kDragTurnRows = 4;  ///< of a PackedTurn: x, y, qx, qy
 inline constexpr std::size_t kDragFoldRows = 3;  ///< p: det J changes by the factor 1 + p · D
 
 /// Whole blocks of points that follow each other. What a kernel does not read or write may be null.

@@ -61,6 +61,14 @@ struct Vector<float> {
   ESPALIER_INLINE friend Vector larger(Vector a, Vector b) {
     return {_mm256_max_ps(a.lanes, b.lanes)};
   }
+  /// a, its sign changed where that of b is minus.
+  ESPALIER_INLINE friend Vector flipped(Vector a, Vector b) {
+    return {_mm256_xor_ps(a.lanes, _mm256_and_ps(b.lanes, _mm256_set1_ps(-0.0F)))};
+  }
+  /// −0 where the last bit of a is 1, else 0.
+  ESPALIER_INLINE friend Vector last_bit_as_sign(Vector a) {
+    return {_mm256_castsi256_ps(_mm256_slli_epi32(_mm256_castps_si256(a.lanes), 31))};
+  }
   /// 1 / √a, correctly rounded steps; 0 where a is not positive.
   ESPALIER_INLINE friend Vector inverse_root_or_zero(Vector a) {
     const __m256 root = _mm256_div_ps(_mm256_set1_ps(1), _mm256_sqrt_ps(a.lanes));
@@ -93,6 +101,12 @@ struct Vector<double> {
   }
   ESPALIER_INLINE friend Vector larger(Vector a, Vector b) {
     return {_mm256_max_pd(a.lanes, b.lanes)};
+  }
+  ESPALIER_INLINE friend Vector flipped(Vector a, Vector b) {
+    return {_mm256_xor_pd(a.lanes, _mm256_and_pd(b.lanes, _mm256_set1_pd(-0.0)))};
+  }
+  ESPALIER_INLINE friend Vector last_bit_as_sign(Vector a) {
+    return {_mm256_castsi256_pd(_mm256_slli_epi64(_mm256_castpd_si256(a.lanes), 63))};
   }
   ESPALIER_INLINE friend Vector inverse_root_or_zero(Vector a) {
     const __m256d root = _mm256_div_pd(_mm256_set1_pd(1), _mm256_sqrt_pd(a.lanes));
@@ -162,6 +176,12 @@ struct Vector<float> {
   ESPALIER_INLINE friend Vector larger(Vector a, Vector b) {
     return {_mm_max_ps(a.lanes, b.lanes)};
   }
+  ESPALIER_INLINE friend Vector flipped(Vector a, Vector b) {
+    return {_mm_xor_ps(a.lanes, _mm_and_ps(b.lanes, _mm_set1_ps(-0.0F)))};
+  }
+  ESPALIER_INLINE friend Vector last_bit_as_sign(Vector a) {
+    return {_mm_castsi128_ps(_mm_slli_epi32(_mm_castps_si128(a.lanes), 31))};
+  }
   ESPALIER_INLINE friend Vector inverse_root_or_zero(Vector a) {
     const __m128 root = _mm_div_ps(_mm_set1_ps(1), _mm_sqrt_ps(a.lanes));
     return {_mm_and_ps(root, _mm_cmpgt_ps(a.lanes, _mm_setzero_ps()))};
@@ -189,6 +209,12 @@ struct Vector<double> {
   ESPALIER_INLINE friend Vector fused_negative(Vector a, Vector b, Vector c) { return c - a * b; }
   ESPALIER_INLINE friend Vector larger(Vector a, Vector b) {
     return {_mm_max_pd(a.lanes, b.lanes)};
+  }
+  ESPALIER_INLINE friend Vector flipped(Vector a, Vector b) {
+    return {_mm_xor_pd(a.lanes, _mm_and_pd(b.lanes, _mm_set1_pd(-0.0)))};
+  }
+  ESPALIER_INLINE friend Vector last_bit_as_sign(Vector a) {
+    return {_mm_castsi128_pd(_mm_slli_epi64(_mm_castpd_si128(a.lanes), 63))};
   }
   ESPALIER_INLINE friend Vector inverse_root_or_zero(Vector a) {
     const __m128d root = _mm_div_pd(_mm_set1_pd(1), _mm_sqrt_pd(a.lanes));
