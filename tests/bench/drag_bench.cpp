@@ -1,7 +1,7 @@
 // How fast a drag is, beside copying bytes and beside a full evaluation, and table 1 of [THB18]
 // redone. One thread unless said. The bytes are those of plain arrays (28 a point for positions, 76
-// with normals and the largest step); the drag packs normals and skips slopes that stop nothing, and
-// moves 56.
+// with normals and the largest step); the drag packs normals and skips slopes that stop nothing,
+// and moves 56.
 
 #include <fmt/format.h>
 
