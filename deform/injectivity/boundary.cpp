@@ -19,7 +19,7 @@ namespace {
 
 /// What a coordinate of a control point may be off by, of the largest: stencils sum up hundreds of
 /// weights, and parts are cut by tens of steps.
-constexpr double kRounding = 1e-12;
+constexpr double kRounding = 1e-13;
 constexpr std::size_t kBatch = 128;  // faces between two looks at what was found
 constexpr std::size_t kGrain = 16;
 constexpr std::size_t kMostPairs = 8;       // of one face that may take all the boxes they may

@@ -17,9 +17,14 @@
 namespace espalier {
 namespace {
 
-constexpr double kSamePlace = 1e-9;  // of the volume's size
-constexpr double kLeafSeam = 0.1;    // of the size of a leaf's face
-constexpr double kFinestSplit = 0x1p-24;
+// What meets lies within these parts of the shorter sides of its faces, but for round-off; between
+// these parts of the volume's size.
+constexpr double kSamePlaceOfFace = 1e-3;
+constexpr double kRoundOff = 3e-14;
+constexpr double kSamePlace = 1e-9;
+constexpr double kLeafSeam = 0.1;         // of the size of a leaf's face
+constexpr double kFinestSplit = 0x1p-24;  // of an edge, by a corner of a finer face
+constexpr double kCoarsestSplit = 0x1p-3;
 constexpr int kSamples = 9;
 constexpr int kNewtonSteps = 12;
 
@@ -34,6 +39,21 @@ struct TwoSizes {
   double rest = 0;
   double pose = 0;
 };
+
+/// A place where faces have corners.
+struct Corner {
+  TwoPlaces at;
+  TwoSizes tolerance;
+};
+
+TwoSizes shorter(const TwoSizes& a, const TwoSizes& b) {
+  return {std::min(a.rest, b.rest), std::min(a.pose, b.pose)};
+}
+
+bool is_near(const TwoPlaces& a, const TwoPlaces& b, const TwoSizes& within) {
+  return glm::distance(a.rest, b.rest) <= within.rest &&
+         glm::distance(a.pose, b.pose) <= within.pose;
+}
 
 /// A point on an edge where another face's corner lies.
 struct Break {
@@ -86,9 +106,7 @@ double shortest_side(const FaceNet& net) {
 class SeamFinder {
  public:
   explicit SeamFinder(BoundaryMesh& mesh)
-      : mesh_(mesh),
-        rest_tolerance_(kSamePlace * mesh.rest_size),
-        pose_tolerance_(2 * kSamePlace * box_of_nets(mesh.pose).radius()) {}
+      : mesh_(mesh), rest_size_(mesh.rest_size), pose_size_(2 * box_of_nets(mesh.pose).radius()) {}
 
   void find() {
     find_corners();
@@ -102,14 +120,19 @@ class SeamFinder {
   [[nodiscard]] TwoPlaces places(std::size_t face, const glm::dvec2& st) const {
     return {mesh_.rest[face].value(st), mesh_.pose[face].value(st)};
   }
-  [[nodiscard]] bool is_same(const TwoPlaces& a, const TwoPlaces& b) const {
-    return glm::distance(a.rest, b.rest) <= rest_tolerance_ &&
-           glm::distance(a.pose, b.pose) <= pose_tolerance_;
+  /// How far apart places may be that are one, if one of them is of this face.
+  [[nodiscard]] TwoSizes tolerance(std::size_t face) const {
+    const auto within = [](double side, double size) {
+      return std::clamp(kSamePlaceOfFace * side, kRoundOff * size, kSamePlace * size);
+    };
+    return {within(shortest_side(mesh_.rest[face]), rest_size_),
+            within(shortest_side(mesh_.pose[face]), pose_size_)};
   }
 
   /// Gives the corners of all faces numbers, the same to those at one place.
   void find_corners() {
-    const double cell = std::max(4 * rest_tolerance_, 1e-300);
+    const double reach = kSamePlace * rest_size_;
+    const double cell = std::max(4 * reach, 1e-300);
     const auto key_of = [&](const glm::dvec3& at) {
       std::uint64_t key = 0;
       for (int axis = 0; axis < 3; ++axis) {
@@ -119,26 +142,29 @@ class SeamFinder {
       return key;
     };
     std::unordered_map<std::uint64_t, std::vector<std::int32_t>> in_cell;
-    const auto find = [&](const TwoPlaces& at) {
+    const auto find = [&](const Corner& corner) {
       for (int octant = 0; octant < 8; ++octant) {
         const glm::dvec3 side(octant & 1, octant >> 1 & 1, octant >> 2);
-        const auto found = in_cell.find(key_of(at.rest + rest_tolerance_ * (2.0 * side - 1.0)));
+        const auto found = in_cell.find(key_of(corner.at.rest + reach * (2.0 * side - 1.0)));
         if (found == in_cell.end()) {
           continue;
         }
         for (const std::int32_t i : found->second) {
-          if (is_same(corners_[static_cast<std::size_t>(i)], at)) {
+          Corner& known = corners_[static_cast<std::size_t>(i)];
+          const TwoSizes both = shorter(known.tolerance, corner.tolerance);
+          if (is_near(known.at, corner.at, both)) {
+            known.tolerance = both;
             return i;
           }
         }
       }
-      in_cell[key_of(at.rest)].push_back(static_cast<std::int32_t>(corners_.size()));
-      corners_.push_back(at);
+      in_cell[key_of(corner.at.rest)].push_back(static_cast<std::int32_t>(corners_.size()));
+      corners_.push_back(corner);
       return static_cast<std::int32_t>(corners_.size()) - 1;
     };
     for (std::size_t face = 0; face < mesh_.faces.size(); ++face) {
       for (int c = 0; c < 4; ++c) {
-        face_corners_.push_back(find(places(face, {c & 1, c >> 1})));
+        face_corners_.push_back(find({places(face, {c & 1, c >> 1}), tolerance(face)}));
       }
     }
   }
@@ -181,18 +207,26 @@ class SeamFinder {
       const double near = std::exp2(std::round(std::log2(std::min(best, 1 - best))));
       return best < 0.5 ? near : 1 - near;
     }
-    const double dyadic = std::round(best / kFinestSplit) * kFinestSplit;
-    return std::abs(dyadic - best) < 0.1 * kFinestSplit ? dyadic : best;
+    // Round-off is a larger part of a shorter edge.
+    const double length = glm::distance(net.value(edge_place(across, side, 0)),
+                                        net.value(edge_place(across, side, 1)));
+    double split = kFinestSplit;
+    while (split < kCoarsestSplit && !(kRoundOff * rest_size_ < 0.1 * split * length)) {
+      split *= 2;
+    }
+    const double dyadic = std::round(best / split) * split;
+    return std::abs(dyadic - best) < 0.1 * split ? dyadic : best;
   }
 
   /// How far from a place of a face's edge a corner may lie that counts as there; `end`: how far
   /// the place is from the edge's nearer end.
   [[nodiscard]] TwoSizes reach(std::size_t face, double end) const {
+    const TwoSizes least = tolerance(face);
     if (!mesh_.faces[face].is_leaf) {
-      return {rest_tolerance_, pose_tolerance_};
+      return least;
     }
-    return {std::max(rest_tolerance_, 4 * kLeafSeam * end * shortest_side(mesh_.rest[face])),
-            std::max(pose_tolerance_, 4 * kLeafSeam * end * shortest_side(mesh_.pose[face]))};
+    return {std::max(least.rest, 4 * kLeafSeam * end * shortest_side(mesh_.rest[face])),
+            std::max(least.pose, 4 * kLeafSeam * end * shortest_side(mesh_.pose[face]))};
   }
 
   /// Finds the corners that lie within edges.
@@ -217,7 +251,7 @@ class SeamFinder {
     }
     const BoxTree tree(std::move(boxes));
     for (std::size_t corner = 0; corner < corners_.size(); ++corner) {
-      const TwoPlaces& at = corners_[corner];
+      const TwoPlaces& at = corners_[corner].at;
       tree.visit_overlapping({at.rest, at.rest}, [&](std::size_t edge) {
         add_break(edge, static_cast<std::int32_t>(corner));
       });
@@ -238,14 +272,15 @@ class SeamFinder {
     }
     const auto across = static_cast<int>(edge % 4 / 2);
     const auto side = static_cast<int>(edge % 2);
-    const TwoPlaces& at = corners_[static_cast<std::size_t>(corner)];
-    const double t = closest(edge / 4, across, side, at.rest);
+    const Corner& found = corners_[static_cast<std::size_t>(corner)];
+    const double t = closest(edge / 4, across, side, found.at.rest);
+    TwoSizes within = reach(edge / 4, std::min(t, 1 - t));
+    if (!mesh_.faces[edge / 4].is_leaf) {
+      within = shorter(within, found.tolerance);
+    }
     const TwoPlaces there = places(edge / 4, edge_place(across, side, t));
-    const TwoSizes most = reach(edge / 4, std::min(t, 1 - t));
-    const double distance = glm::distance(there.rest, at.rest);
-    if (t > 0 && t < 1 && distance <= most.rest &&
-        glm::distance(there.pose, at.pose) <= most.pose) {
-      breaks_[edge].push_back({t, corner, distance});
+    if (t > 0 && t < 1 && is_near(there, found.at, within)) {
+      breaks_[edge].push_back({t, corner, glm::distance(there.rest, found.at.rest)});
     }
   }
 
@@ -283,19 +318,17 @@ class SeamFinder {
           static_cast<std::size_t>(s.face),
           edge_place(s.use.across, s.use.side, s.use.begin + part * (s.use.end - s.use.begin)));
     };
-    TwoSizes slack{rest_tolerance_, pose_tolerance_};
-    for (const Stretch* stretch : {&a, &b}) {
-      const auto face = static_cast<std::size_t>(stretch->face);
+    const auto face_of = [](const Stretch& s) { return static_cast<std::size_t>(s.face); };
+    TwoSizes within = shorter(tolerance(face_of(a)), tolerance(face_of(b)));
+    for (const std::size_t face : {face_of(a), face_of(b)}) {
       if (mesh_.faces[face].is_leaf) {
-        slack.rest = std::max(slack.rest, kLeafSeam * size_of(mesh_.rest[face]));
-        slack.pose = std::max(slack.pose, kLeafSeam * size_of(mesh_.pose[face]));
+        within.rest = std::max(within.rest, kLeafSeam * size_of(mesh_.rest[face]));
+        within.pose = std::max(within.pose, kLeafSeam * size_of(mesh_.pose[face]));
       }
     }
     for (int i = 1; i < kSamples - 1; ++i) {
-      const TwoPlaces of_a = at(a, static_cast<double>(i) / (kSamples - 1));
-      const TwoPlaces of_b = at(b, static_cast<double>(i) / (kSamples - 1));
-      if (glm::distance(of_a.rest, of_b.rest) > slack.rest ||
-          glm::distance(of_a.pose, of_b.pose) > slack.pose) {
+      const double part = static_cast<double>(i) / (kSamples - 1);
+      if (!is_near(at(a, part), at(b, part), within)) {
         return false;
       }
     }
@@ -341,9 +374,9 @@ class SeamFinder {
   }
 
   BoundaryMesh& mesh_;
-  double rest_tolerance_;
-  double pose_tolerance_;
-  std::vector<TwoPlaces> corners_;
+  double rest_size_;
+  double pose_size_;
+  std::vector<Corner> corners_;
   std::vector<std::int32_t> face_corners_;  // 4 a face: (0,0), (1,0), (0,1), (1,1)
   std::vector<std::vector<Break>> breaks_;  // of each edge: 4 · face + 2 · across + side
 };

@@ -49,9 +49,10 @@ struct BoundaryMesh {
   CompressedRows<CornerUse> corners;  ///< of each face
 };
 
-/// Faces meet where they do at rest and in the pose, within 1e-9 of the size of either; along the
-/// edges of leaves, which meet their neighbours only nearly, within a tenth of the leaf's
-/// size between corners. A corner may lie within another face's edge, at a dyadic parameter.
+/// Faces meet where they do at rest and in the pose, within a thousandth of their shorter sides and
+/// 1e-9 of the size of the whole, but for round-off; along the edges of leaves, which meet their
+/// neighbours only nearly, within a tenth of the leaf's size between corners. A corner may lie
+/// within another face's edge, at a dyadic parameter.
 /// pose: points of the volume; pose_weights: of its points, if it is rational. O(n log n).
 [[nodiscard]] BoundaryMesh boundary_mesh(const Volume& volume, std::span<const glm::dvec3> pose,
                                          std::span<const double> pose_weights);

@@ -2,14 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lattice/build/inventory.h"
+#include "lattice/build/primitives.h"
 #include "lattice/core/error.h"
 #include "lattice/core/parallel.h"
 #include "lattice/subdivision/freeze.h"
@@ -92,6 +95,21 @@ TEST(Boundary, is_simple_where_leaves_meet_finer_neighbours) {
             << name;
       }
     }
+  }
+}
+
+TEST(Boundary, of_a_twisted_bar_is_told_beside_dozens_of_levels_of_isolation) {
+  for (const auto& [sectors, gradient_tolerance] :
+       {std::pair(8, 1e-4), std::pair(10, 1e-4), std::pair(12, 1e-2)}) {
+    const Volume volume =
+        freeze_adaptive(test::lattice_from(make_cylinder({.sectors = sectors, .layers = 3})),
+                        {.tolerance = 1e-5, .gradient_tolerance = gradient_tolerance});
+    const auto pose = posed(volume, [&](const glm::dvec3& x) {
+      const double turn = std::clamp(x.y, 0.0, 1.0);
+      return glm::dvec3(std::cos(turn) * x.x - std::sin(turn) * x.z, x.y,
+                        std::sin(turn) * x.x + std::cos(turn) * x.z);
+    });
+    EXPECT_EQ(check_boundary(volume, pose).verdict, BoundaryVerdict::Simple) << sectors;
   }
 }
 
