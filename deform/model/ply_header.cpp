@@ -64,6 +64,8 @@ PlyEncoding read_encoding(TextScanner& scanner) {
 PlyElement read_element(TextScanner& scanner) {
   PlyElement element;
   element.name = scanner.next_word();
+  TextScanner ahead = scanner;
+  element.count_word = ahead.next_word();
   element.count = scanner.next_integer("the number of elements");
   if (element.count < 0 || element.count > std::numeric_limits<std::int32_t>::max()) {
     scanner.fail(fmt::format("{} elements '{}' are announced, must be 0 to 2147483647",

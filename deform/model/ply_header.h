@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lattice/core/text_scanner.h"
@@ -25,6 +26,7 @@ struct PlyProperty {
 struct PlyElement {
   std::string name;
   std::int64_t count = 0;
+  std::string_view count_word;  ///< where the scanned text has it
   std::vector<PlyProperty> properties;
 };
 

@@ -368,7 +368,7 @@ std::vector<Operation> deform_operations() {
          .is_list = true},
         {.name = "output",
          .type = Type::Result,
-         .help = "the denser model (.obj)",
+         .help = "the denser model, in the format of the model",
          .is_required = true}},
        densify},
   };
