@@ -44,7 +44,7 @@ double longest_edge(const DenseMesh& mesh) {
 [[noreturn]] void refuse_growth(double n_faces, double longest, double longest_now) {
   throw ParameterError(fmt::format(
       "densify: edges of at most {} would take {:.3g} faces or more, the limit is {:.3g}; the "
-      "longest edge is {}: give a larger length",
+      "longest edge is {:.4g}: give a larger length",
       longest, n_faces, kMostDenseFaces, longest_now));
 }
 

@@ -53,6 +53,27 @@ TEST_F(DensifyCommand, makes_edges_as_short_as_a_length_or_as_cells_of_a_lattice
   }
 }
 
+TEST_F(DensifyCommand, takes_models_of_all_formats_and_keeps_theirs) {
+  write_file("plate.off", "OFF\n4 1 0\n.1 .1 .5\n.9 .1 .5\n.9 .9 .5\n.1 .9 .5\n4 0 1 2 3\n");
+  write_file("plate.ply",
+             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+             "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+             "end_header\n.1 .1 .5\n.9 .1 .5\n.9 .9 .5\n3 0 1 2\n");
+  write_file("plate.stl",
+             "solid\nfacet normal 0 0 1\nouter loop\nvertex .1 .1 .5\nvertex .9 .1 .5\n"
+             "vertex .9 .9 .5\nendloop\nendfacet\nendsolid\n");
+  for (const std::string kind : {".off", ".ply", ".stl"}) {
+    done({"densify", "plate" + kind, "--lattice", "box.json", "-o", "dense" + kind});
+    EXPECT_LE(longest_edge("dense" + kind), 0.125 * (1 + 1e-6)) << kind;
+    done({"deform", "plate" + kind, "--lattice", "box.json", "--pose", "bent.json", "--densify",
+          "midpoint", "-o", "fine" + kind});
+    EXPECT_GT(read_model("fine" + kind).points().size(), 30u) << kind;
+  }
+  EXPECT_EQ(refusal({"densify", "plate.off", "--length", "0.3", "-o", "dense.obj"}, 1),
+            "dense.obj: cannot write plate.off as '.obj': a model keeps its format; name the "
+            "output *.off");
+}
+
 TEST_F(DensifyCommand, takes_a_length_or_a_lattice_and_not_both) {
   EXPECT_EQ(refusal({"densify", "plate.obj", "--length", "0.3", "--lattice", "box.json", "-o",
                      "dense.obj"},
