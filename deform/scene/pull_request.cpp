@@ -64,10 +64,10 @@ void add_surface_picks(const Arguments& arguments, const Model& model, PullReque
     point.point = closest_surface_point(model, place);
     const glm::dvec3 found = place_of(point.point, model.points());
     point.name = fmt::format("the surface at ({:.6g}, {:.6g}, {:.6g})", found.x, found.y, found.z);
-    if (const double distance = glm::distance(found, place); distance > far) {
-      point.name += fmt::format(", {:.3g} from {}", distance, parts.name);
-    }
     request.picks.push_back({point.name});
+    if (const double distance = glm::distance(found, place); distance > far) {
+      request.picks.back().name += fmt::format(", {:.3g} from {}", distance, parts.name);
+    }
     request.task.points.push_back(std::move(point));
   }
 }

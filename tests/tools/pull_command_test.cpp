@@ -159,6 +159,9 @@ TEST_F(PullCommand, refuses_what_it_cannot_pick) {
   EXPECT_EQ(refused({"--pick", "0=1,1,1", "--pick-at", "4,4,4=4,4,nan"}),
             "--pick-at is '4,4,4=4,4,nan', must be x,y,z=tx,ty,tz with six finite numbers: a place "
             "on the model's surface and its goal");
+  EXPECT_EQ(refused({"--pick-at", "4,4,4=5,4,4", "--symmetry", "x:4"}),
+            "--pick-at takes the surface at (4, 4, 4) off the plane of symmetry x = 4, on which it "
+            "lies: give it a goal on the plane");
   for (const char* indices : {"0-999999999", "3-1", "1,,2", "-1"}) {
     EXPECT_EQ(refused({"--magnet", std::string(indices) + "=0,0,1"}),
               "--magnet is '" + std::string(indices) +
