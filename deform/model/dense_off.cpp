@@ -1,9 +1,7 @@
 /// Geomview manual, "OFF: Object File Format".
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +13,7 @@
 #include "deform/model/mesh_edges.h"
 #include "deform/model/model_file.h"
 #include "deform/model/normals.h"
+#include "deform/model/off_rows.h"
 #include "deform/model/splices.h"
 #include "lattice/core/text_scanner.h"
 
@@ -23,30 +22,15 @@ namespace {
 
 constexpr std::size_t kMostExtras = 16;
 
-/// Where a face's corners stand, from their number on, and the words after them: its colour.
-struct FaceLine {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-  std::string rest;
-};
-
 /// Numbers after a point's coordinates are its normal, colour and texture coordinates; new points
 /// get those that all have.
 class OffDenseFile final : public DenseFile {
  public:
   explicit OffDenseFile(const Model& model)
-      : model_(model), scanner_(model.path(), model.bytes(), {.comment = '#'}) {
-    n_normal_ = model.normals().empty() ? 0 : 3;
-    read_counts();
-    for (std::size_t i = 0; i < model.points().size(); ++i) {
-      (void)next_filled_line();
-      read_point();
+      : model_(model), rows_(off_rows(model_)), n_normal_(model.normals().empty() ? 0 : 3) {
+    for (const OffPointRow& row : rows_.points) {
+      read_extras(row);
       ++n_points_read_;
-    }
-    const std::string_view last = scanner_.line();
-    end_of_points_ = place(last) + last.size();
-    for (std::size_t face = 0; face < model.faces().n_rows();) {
-      face += read_face(next_filled_line()) ? 1 : 0;
     }
     find_whole_columns();
   }
@@ -61,12 +45,12 @@ class OffDenseFile final : public DenseFile {
   [[nodiscard]] Model with(const DenseMesh& mesh, std::string path) const override {
     Splices splices;
     replace_counts(mesh, splices);
-    splices.insert(end_of_points_, point_lines(mesh));
+    splices.insert(rows_.end_of_points, point_lines(mesh));
     const FacePartition partition(this->mesh(), mesh);
-    for (std::size_t face = 0; face < faces_.size(); ++face) {
+    for (std::size_t face = 0; face < rows_.faces.size(); ++face) {
+      const OffFaceRow& row = rows_.faces[face];
       if (!partition[face].is_whole) {
-        splices.replace(faces_[face].begin, faces_[face].end,
-                        face_lines(mesh, partition[face], faces_[face].rest));
+        splices.replace(row.begin, row.end, face_lines(mesh, partition[face], row.rest));
       }
     }
     const Model dense =
@@ -81,32 +65,14 @@ class OffDenseFile final : public DenseFile {
     return static_cast<std::size_t>(word.data() - model_.bytes().data());
   }
 
-  /// The first word of the next line that has one.
-  std::string_view next_filled_line() {
-    std::string_view word;
-    while (word.empty() && scanner_.next_line()) {
-      word = scanner_.next_word();
-    }
-    return word;
-  }
-
-  /// Points and faces come after the keyword, on any line; edges on the same as faces, or not.
-  void read_counts() {
-    std::string_view word = next_filled_line();
-    for (std::string_view& count : counts_) {
-      word = scanner_.next_word();
-      count = word.empty() && &count != &counts_.back() ? next_filled_line() : word;
-    }
-  }
-
-  /// Its line's first word is taken.
-  void read_point() {
-    for (int axis = 1; axis < 3; ++axis) {
-      (void)scanner_.next_word();
-    }
+  void read_extras(const OffPointRow& row) {
+    const BytePlace& last = model_.layout().point_places[n_points_read_].axis[2];
+    const std::size_t begin = last.begin() + last.length();
+    TextScanner scanner(model_.path(), model_.bytes().substr(begin, row.end - begin));
+    (void)scanner.next_line();
     std::size_t n = 0;
     double number = 0;
-    while (n < n_extras_ && parse_number(scanner_.next_word(), number) && std::isfinite(number)) {
+    while (n < n_extras_ && parse_number(scanner.next_word(), number) && std::isfinite(number)) {
       extras_.push_back(number);
       ++n;
     }
@@ -121,25 +87,6 @@ class OffDenseFile final : public DenseFile {
       extras_[i] = extras_[i / n * before + i % n];
     }
     extras_.resize(n_kept);
-  }
-
-  /// Whether it is a face to the model, of three corners or more.
-  bool read_face(std::string_view word) {
-    FaceLine line{place(word), place(word) + word.size(), ""};
-    std::int64_t n_corners = 0;
-    if (!parse_integer(word, n_corners) || n_corners < 3) {
-      return false;
-    }
-    for (std::int64_t i = 0; i < n_corners; ++i) {
-      const std::string_view corner = scanner_.next_word();
-      line.end = place(corner) + corner.size();
-    }
-    for (word = scanner_.next_word(); !word.empty(); word = scanner_.next_word()) {
-      line.rest += ' ';
-      line.rest += word;
-    }
-    faces_.push_back(std::move(line));
-    return true;
   }
 
   /// Colours from 0 to 255 stay whole numbers.
@@ -157,17 +104,17 @@ class OffDenseFile final : public DenseFile {
   }
 
   void replace_counts(const DenseMesh& mesh, Splices& splices) const {
-    const std::size_t n_faces = mesh.faces.n_rows() - faces_.size();
+    const std::size_t n_faces = mesh.faces.n_rows() - rows_.faces.size();
     const auto replace = [&](std::string_view word, std::size_t count) {
       splices.replace(BytePlace(place(word), word.size()), std::to_string(count));
     };
     std::int64_t old_faces = 0;
     std::int64_t n_edges = 0;
-    (void)parse_integer(counts_[1], old_faces);  // those of two corners, too
-    replace(counts_[0], mesh.points.size());
-    replace(counts_[1], static_cast<std::size_t>(old_faces) + n_faces);
-    if (parse_integer(counts_[2], n_edges) && n_edges != 0) {
-      replace(counts_[2], MeshEdges(mesh).n_edges());
+    (void)parse_integer(rows_.counts[1], old_faces);  // those of two corners, too
+    replace(rows_.counts[0], mesh.points.size());
+    replace(rows_.counts[1], static_cast<std::size_t>(old_faces) + n_faces);
+    if (parse_integer(rows_.counts[2], n_edges) && n_edges != 0) {
+      replace(rows_.counts[2], MeshEdges(mesh).n_edges());
     }
   }
 
@@ -209,16 +156,13 @@ class OffDenseFile final : public DenseFile {
   }
 
   Model model_;
-  TextScanner scanner_;
+  OffRows rows_;
   std::string_view line_end_ = line_end_of(model_.bytes());
-  std::array<std::string_view, 3> counts_;  // of points, faces and edges, as they stand there
   std::size_t n_points_read_ = 0;
   std::size_t n_extras_ = kMostExtras;
-  std::size_t n_normal_ = 0;  // of the extras
+  std::size_t n_normal_;  // of the extras
   std::vector<double> extras_;
   std::vector<bool> is_whole_;  // #extras
-  std::size_t end_of_points_ = 0;
-  std::vector<FaceLine> faces_;
 };
 
 }  // namespace

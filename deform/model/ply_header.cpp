@@ -119,6 +119,7 @@ PlyHeader read_ply_header(TextScanner& scanner) {
         scanner.fail("a property stands before the first element");
       }
       header.elements.back().properties.push_back(read_property(scanner));
+      header.elements.back().last_line = scanner.line();
     } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
       scanner.fail(
           fmt::format("{} in the header, must be format, comment, element, property or "

@@ -28,6 +28,7 @@ struct PlyElement {
   std::int64_t count = 0;
   std::string_view count_word;  ///< where the scanned text has it
   std::vector<PlyProperty> properties;
+  std::string_view last_line;  ///< that of its last property, there
 };
 
 enum class PlyEncoding : std::uint8_t { Text, Little, Big };
