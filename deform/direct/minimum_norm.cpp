@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -87,13 +88,73 @@ struct MinimumNorm::Free {
   }
 };
 
+/// A square R that solves equations: as it is, if its smallest singular value is far from what
+/// counts as zero, else by a rank-revealing factorisation, which Eigen does column by column.
+class MinimumNorm::Core {
+ public:
+  Core(std::shared_ptr<const TallQr> reduction, double tolerance)
+      : reduction_(std::move(reduction)), largest_(R().colwise().norm().maxCoeff()) {
+    if (!(least_singular_value() > kSureOfRank * tolerance * largest_)) {
+      complete_ = complete(R(), tolerance);
+    }
+  }
+
+  [[nodiscard]] Vectors solve(const Vectors& b) const {
+    return complete_ ? Vectors(complete_->solve(b))
+                     : Vectors(R().triangularView<Eigen::Upper>().solve(b));
+  }
+  [[nodiscard]] Vectors solve_transposed(const Vectors& b) const {
+    return complete_ ? Vectors(complete_->transpose().solve(b))
+                     : Vectors(R().transpose().triangularView<Eigen::Lower>().solve(b));
+  }
+  [[nodiscard]] std::size_t rank() const {
+    return static_cast<std::size_t>(complete_ ? complete_->rank() : R().cols());
+  }
+  /// The largest length of a column.
+  [[nodiscard]] double largest() const { return largest_; }
+
+ private:
+  static constexpr double kSureOfRank = 1e3;
+  static constexpr int kIterations = 8;
+
+  [[nodiscard]] const MatrixXd& R() const { return reduction_->R; }
+
+  /// Estimated by inverse iteration: somewhat too large if anything.
+  [[nodiscard]] double least_singular_value() const {
+    if (!(R().diagonal().cwiseAbs().minCoeff() > 0)) {
+      return 0;
+    }
+    Eigen::VectorXd x(R().cols());
+    for (Index i = 0; i < x.size(); ++i) {
+      constexpr double kGolden = 0.6180339887498949;
+      const double turns = kGolden * static_cast<double>(i + 1);
+      x[i] = 1.5 * (turns - std::floor(turns)) - 0.5;
+    }
+    double growth = 0;
+    for (int iteration = 0; iteration < kIterations; ++iteration) {
+      x /= x.norm();
+      R().transpose().triangularView<Eigen::Lower>().solveInPlace(x);
+      R().triangularView<Eigen::Upper>().solveInPlace(x);
+      growth = x.norm();
+      if (!std::isfinite(growth)) {
+        return 0;
+      }
+    }
+    return 1 / std::sqrt(growth);
+  }
+
+  std::shared_ptr<const TallQr> reduction_;
+  double largest_;
+  std::optional<Complete> complete_;
+};
+
 /// The longer side of A is reduced first, its square core then factorised.
 struct MinimumNorm::Factors {
   std::shared_ptr<const Free> free;         // none if there is no a
   std::shared_ptr<const TallQr> reduction;  // none if nothing is left to solve
   bool is_wide = false;                     // more unknowns than equations: of Aᵀ, else of A
   Index n_unknowns = 0;
-  std::optional<Complete> core;
+  std::shared_ptr<const Core> core;
   std::optional<Eigen::HouseholderQR<MatrixXd>> damped;  // instead of the core
 
   void factorise(MatrixXd transposed, const Progress& progress) {
@@ -107,7 +168,7 @@ struct MinimumNorm::Factors {
       transposed.transposeInPlace();
     }
     reduction = std::make_shared<const TallQr>(tall_qr(std::move(transposed), progress));
-    core = complete(reduction->R, tolerance);
+    core = std::make_shared<const Core>(reduction, tolerance);
   }
 
   [[nodiscard]] Vectors solve_core(const Vectors& b) const {
@@ -120,10 +181,7 @@ struct MinimumNorm::Factors {
         padded.topRows(right.rows()) = right;
         return damped->solve(padded);
       }
-      if (is_wide) {
-        return core->transpose().solve(right);
-      }
-      return core->solve(right);
+      return is_wide ? core->solve_transposed(right) : core->solve(right);
     };
     if (is_wide) {
       return thin_product(reduction->Q, square(b));
@@ -162,7 +220,7 @@ MinimumNorm MinimumNorm::with_damping(double damping) const {
     MatrixXd stacked(2 * R.rows(), R.cols());
     stacked.topRows(R.rows()) = factors->is_wide ? MatrixXd(R.transpose()) : R;
     stacked.bottomRows(R.rows()) =
-        damping * factors->core->maxPivot() * MatrixXd::Identity(R.rows(), R.cols());
+        damping * factors->core->largest() * MatrixXd::Identity(R.rows(), R.cols());
     factors->damped.emplace(stacked);
   }
   return MinimumNorm(std::shared_ptr<const Factors>(std::move(factors)));
@@ -181,7 +239,7 @@ MinimumNormSolution MinimumNorm::solve(std::span<const glm::dvec3> b) const {
 
 std::size_t MinimumNorm::rank() const {
   return (factors_->free ? factors_->free->rank() : 0) +
-         (factors_->core ? static_cast<std::size_t>(factors_->core->rank()) : 0);
+         (factors_->core ? factors_->core->rank() : 0);
 }
 
 DenseMatrix MinimumNorm::independent_part(const DenseMatrix& transposed,

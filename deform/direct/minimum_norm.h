@@ -62,6 +62,7 @@ class MinimumNorm {
   [[nodiscard]] std::vector<glm::dvec3> free_change(std::span<const glm::dvec3> y) const;
 
  private:
+  class Core;
   struct Free;
   struct Factors;
   explicit MinimumNorm(std::shared_ptr<const Factors> factors);

@@ -105,6 +105,21 @@ TEST(MinimumNorm, of_sizes_round_those_of_its_panels_solves_as_well) {
   }
 }
 
+TEST(MinimumNorm, counts_equations_that_are_others_within_round_off_as_these) {
+  for (const auto& [apart, rank] : {std::pair(1e-15, 39u), std::pair(1e-7, 40u)}) {
+    DenseMatrix transposed = random_matrix(70, 40, 11);
+    for (std::size_t k = 0; k < 70; ++k) {  // the last: half the sum of the first two
+      transposed.values[39 * 70 + k] = 0.5 * (transposed.values[k] + transposed.values[70 + k]) +
+                                       apart * (k % 3 == 0 ? 1.0 : -1.0);
+    }
+    EXPECT_EQ(MinimumNorm(transposed).rank(), rank);
+    const auto b = product(transposed, random_vectors(70, 12));
+    const auto y = MinimumNorm(transposed).solve(b).y;
+    EXPECT_LT(largest(difference(product(transposed, y), b)), 1e-13);
+    EXPECT_LT(largest(y), 10);
+  }
+}
+
 TEST(MinimumNorm, tells_how_far_it_is_and_can_be_cancelled) {
   const DenseMatrix transposed = random_matrix(300, 200, 9);
   double last = -1;
