@@ -165,6 +165,15 @@ std::string folds_text(std::span<const Fold> folds) {
   return text;
 }
 
+/// To six digits: a step that is less is as safe.
+double rounded_down(double step) {
+  if (!(step > 0)) {
+    return step;
+  }
+  const double digits = std::pow(10.0, 5 - std::floor(std::log10(step)));
+  return std::floor(step * digits) / digits;
+}
+
 std::string text_of(const std::string& path, const CheckReport& report) {
   if (!report.defects.empty()) {
     std::string text = fmt::format("{}: invalid\n", path);
@@ -200,8 +209,9 @@ std::string text_of(const std::string& path, const CheckReport& report) {
                 : "  volume of the model: none, it is not closed\n";
   }
   if (report.step) {
-    text += report.is_bounded ? fmt::format("  largest step: {}\n", report.step->step)
-                              : "  largest step: unbounded\n";
+    text += report.is_bounded
+                ? fmt::format("  largest step: {:.6g}\n", rounded_down(report.step->step))
+                : "  largest step: unbounded\n";
   }
   return text;
 }

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "lattice/core/progress.h"
+
 namespace espalier {
 
 /// A matrix, column-major.
@@ -36,8 +38,9 @@ struct MinimumNormSolution {
 class MinimumNorm {
  public:
   /// transposed: Aᵀ, a column an equation; free: F, a row an equation, or no columns. Throws as
-  /// require_solvable(). O(#y · #equations · min of both).
-  explicit MinimumNorm(const DenseMatrix& transposed, const DenseMatrix& free = {});
+  /// require_solvable(). O(#y · #equations · min of both). Tells `progress` "factorise".
+  explicit MinimumNorm(const DenseMatrix& transposed, const DenseMatrix& free = {},
+                       const Progress& progress = {});
 
   /// The same equations solved for the least |b − A y − F a|² + damping² |A|² |y|²: a small y that
   /// nearly solves them instead of a large one that does. damping: above 0. O(square core).
@@ -59,6 +62,7 @@ class MinimumNorm {
   [[nodiscard]] std::vector<glm::dvec3> free_change(std::span<const glm::dvec3> y) const;
 
  private:
+  class Core;
   struct Free;
   struct Factors;
   explicit MinimumNorm(std::shared_ptr<const Factors> factors);

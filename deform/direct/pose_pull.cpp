@@ -82,7 +82,7 @@ glm::dvec3 wanted_move(const PullTask& task, const PulledPoint& point, const glm
 
 /// Solves for the rows of the points that are held.
 PullMotion solved(const PullTask& task, const Stage& stage, const StencilTable& rows,
-                  std::span<const std::size_t> held) {
+                  std::span<const std::size_t> held, const Progress& progress) {
   std::vector<std::size_t> free;
   std::vector<std::size_t> flat;
   std::vector<glm::dvec3> wanted;
@@ -104,10 +104,11 @@ PullMotion solved(const PullTask& task, const Stage& stage, const StencilTable& 
                                           stage.mobilities)
                           : smallest_motion(all, stage.mobilities);
   if (flat.empty()) {
-    return Pull(all, energy, n_of_groups).motion(wanted);
+    return Pull(all, energy, n_of_groups, progress).motion(wanted);
   }
   return pull_with_plane(selected_rows(rows, free), n_of_groups, wanted,
-                         {selected_rows(rows, flat), task.plane_normal}, distances, energy);
+                         {selected_rows(rows, flat), task.plane_normal}, distances, energy,
+                         progress);
 }
 
 void solve(const PullTask& task, std::span<const glm::dvec3> model,
@@ -140,7 +141,7 @@ void solve(const PullTask& task, std::span<const glm::dvec3> model,
   }
   require_no_contradiction(points, held_places, held_wanted, task.plane_normal,
                            kSamePlace * stage.volume->diagonal());
-  PullMotion pulled = solved(task, stage, rows, held);
+  PullMotion pulled = solved(task, stage, rows, held, progress);
   stage.motion = std::move(pulled.motion);
   for (std::size_t i = 0; i < held.size(); ++i) {
     stage.residuals[held[i]] = pulled.residuals[i];

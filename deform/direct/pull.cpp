@@ -44,8 +44,9 @@ void require_targets(std::span<const glm::dvec3> wanted, std::size_t n_picks) {
   }
 }
 
-MinimumNorm solver_of(const StencilTable& rows, const MotionEnergy& energy) {
-  return MinimumNorm(energy.columns(rows), energy.free_columns(rows));
+MinimumNorm solver_of(const StencilTable& rows, const MotionEnergy& energy,
+                      const Progress& progress) {
+  return MinimumNorm(energy.columns(rows), energy.free_columns(rows), progress);
 }
 
 }  // namespace
@@ -53,16 +54,18 @@ MinimumNorm solver_of(const StencilTable& rows, const MotionEnergy& energy) {
 Pull::Pull(const StencilTable& rows, std::span<const double> mobilities)
     : Pull(rows, smallest_motion(rows, mobilities)) {}
 
-Pull::Pull(StencilTable rows, std::shared_ptr<const MotionEnergy> energy, std::size_t n_of_groups)
+Pull::Pull(StencilTable rows, std::shared_ptr<const MotionEnergy> energy, std::size_t n_of_groups,
+           const Progress& progress)
     : rows_(with_no_empty_row(std::move(rows))),
       energy_(std::move(energy)),
       n_picks_(rows_.n_rows() - n_of_groups),
-      picks_(solver_of(row_range(rows_, 0, n_picks_), *energy_)) {
+      picks_(solver_of(row_range(rows_, 0, n_picks_), *energy_, progress)) {
   if (n_of_groups > 0) {
     const StencilTable others = row_range(rows_, n_picks_, rows_.n_rows());
-    groups_ = n_picks_ == 0 ? solver_of(others, *energy_)
+    groups_ = n_picks_ == 0 ? solver_of(others, *energy_, progress)
                             : MinimumNorm(picks_.independent_part(energy_->columns(others),
-                                                                  energy_->free_columns(others)));
+                                                                  energy_->free_columns(others)),
+                                          {}, progress);
   }
 }
 
@@ -130,7 +133,8 @@ PullMotion Pull::motion(std::span<const glm::dvec3> wanted) const {
 PullMotion pull_with_plane(const StencilTable& rows, std::size_t n_of_groups,
                            std::span<const glm::dvec3> wanted, const PlaneRows& plane,
                            std::span<const double> distances,
-                           const std::shared_ptr<const MotionEnergy>& energy) {
+                           const std::shared_ptr<const MotionEnergy>& energy,
+                           const Progress& progress) {
   require_targets(wanted, rows.n_rows());
   const glm::dvec3& n = plane.normal;
   std::vector<glm::dvec3> across;
@@ -143,10 +147,11 @@ PullMotion pull_with_plane(const StencilTable& rows, std::size_t n_of_groups,
     along.emplace_back(distance, 0, 0);
   }
   const PullMotion of_normal =
-      Pull(stacked_rows(rows, plane.rows), energy, n_of_groups + distances.size()).motion(along);
+      Pull(stacked_rows(rows, plane.rows), energy, n_of_groups + distances.size(), progress)
+          .motion(along);
   PullMotion result{std::vector<glm::dvec3>(of_normal.motion.size(), glm::dvec3(0)), {}};
   if (rows.n_rows() > 0) {
-    result = Pull(rows, energy, n_of_groups).motion(across);
+    result = Pull(rows, energy, n_of_groups, progress).motion(across);
   }
   for (std::size_t i = 0; i < result.motion.size(); ++i) {
     result.motion[i] += of_normal.motion[i].x * n;

@@ -38,8 +38,9 @@ class Pull {
   explicit Pull(const StencilTable& rows, std::span<const double> mobilities = {});
 
   /// The same with any energy that was made for these rows. n_of_groups: how many of the last rows
-  /// are those of groups.
-  Pull(StencilTable rows, std::shared_ptr<const MotionEnergy> energy, std::size_t n_of_groups = 0);
+  /// are those of groups. Tells `progress` "factorise".
+  Pull(StencilTable rows, std::shared_ptr<const MotionEnergy> energy, std::size_t n_of_groups = 0,
+       const Progress& progress = {});
 
   /// wanted: #rows, how far each is to move, model units. Throws ParameterError unless that many
   /// finite vectors are given. O(#picks · #controls reached). Keeps within round-off what can be
@@ -75,7 +76,8 @@ struct PlaneRows {
 [[nodiscard]] PullMotion pull_with_plane(const StencilTable& rows, std::size_t n_of_groups,
                                          std::span<const glm::dvec3> wanted, const PlaneRows& plane,
                                          std::span<const double> distances,
-                                         const std::shared_ptr<const MotionEnergy>& energy);
+                                         const std::shared_ptr<const MotionEnergy>& energy,
+                                         const Progress& progress = {});
 
 /// The greatest length of vectors, 0 for none.
 [[nodiscard]] double longest(std::span<const glm::dvec3> vectors);

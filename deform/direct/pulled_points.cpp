@@ -17,16 +17,21 @@ namespace espalier {
 namespace {
 
 std::string text_of(const glm::dvec3& v) {
-  return fmt::format("({}, {}, {})", v.x, v.y, v.z);
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
+}
+
+/// A point of a surface is named by its place.
+std::string name_at(const PulledPoint& point, const glm::dvec3& place) {
+  return point.name.ends_with(')') ? point.name : point.name + " at " + text_of(place);
 }
 
 [[noreturn]] void refuse_outside(const PulledPoint& point, const glm::dvec3& place,
                                  PointStatus status) {
-  const std::string subject = point.is_image
-                                  ? fmt::format("'symmetry' mirrors {} to", point.name)
-                                  : fmt::format("'{}' names {} at", point.option, point.name);
+  const std::string subject =
+      point.is_image ? fmt::format("'symmetry' mirrors {} to {}", point.name, text_of(place))
+                     : fmt::format("'{}' names {}", point.option, name_at(point, place));
   throw ParameterError(fmt::format(
-      "{} {}, which {}", subject, text_of(place),
+      "{}, which {}", subject,
       status == PointStatus::Unconverged
           ? "is not found in the lattice although a cell may hold it: is that singular at rest?"
           : "lies outside the lattice: no control point moves it"));
@@ -73,10 +78,11 @@ std::vector<PulledPoint> with_images(std::vector<PulledPoint> points,
     if (glm::distance(place, symmetry.image_of_place(place)) > 2 * tolerance) {
       points.push_back(std::move(image));
     } else if (glm::distance(image.goal, points[i].goal) > 2 * tolerance) {
-      throw ParameterError(fmt::format(
-          "'{}' takes {} at {} off the plane of symmetry {} = {}, on which it lies: give it a goal "
-          "on the plane",
-          image.option, image.name, text_of(place), "xyz"[symmetry.axis], symmetry.offset));
+      throw ParameterError(
+          fmt::format("'{}' takes {} off the plane of symmetry {} = {}, on which it lies: give it "
+                      "a goal on the "
+                      "plane",
+                      image.option, name_at(image, place), "xyz"[symmetry.axis], symmetry.offset));
     }
   }
   return points;

@@ -11,6 +11,7 @@
 #include "deform/model/encoded_number.h"
 #include "deform/model/model_file.h"
 #include "deform/model/normals.h"
+#include "deform/model/point_normals.h"
 #include "deform/model/splices.h"
 #include "lattice/core/error.h"
 #include "lattice/core/text_scanner.h"
@@ -249,9 +250,9 @@ std::string deformed_bytes(const Model& model, std::span<const glm::dvec3> point
 
 std::string deformed_bytes_with_normals(const Model& model, std::span<const glm::dvec3> points,
                                         const CornerNormals& added) {
-  if (model.format() != ModelFormat::Obj) {
+  if (model.format() == ModelFormat::Stl) {
     throw ParameterError(fmt::format(
-        "normals: only a model in an OBJ file can be given normals, {} has none", model.path()));
+        "normals: {} is an STL file, which has normals of its facets alone", model.path()));
   }
   if (!model.pairs().empty() || added.of_corners.size() != model.faces().n_values()) {
     throw ParameterError(fmt::format("normals: {} given for {} corners, of which some have normals",
@@ -259,10 +260,14 @@ std::string deformed_bytes_with_normals(const Model& model, std::span<const glm:
   }
   require_valid(model, points, {});
   Splices splices;
-  if (replace_points(model, points, splices)) {
-    add_normals(model, added, splices);
+  if (!replace_points(model, points, splices)) {
+    return std::string(model.bytes());
   }
-  return splices.apply(model.bytes());
+  if (model.format() == ModelFormat::Obj) {
+    add_normals(model, added, splices);
+    return splices.apply(model.bytes());
+  }
+  return bytes_with_point_normals(with_bytes(model, splices.apply(model.bytes())), added);
 }
 
 Model deformed(const Model& model, std::span<const glm::dvec3> points,

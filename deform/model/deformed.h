@@ -38,9 +38,10 @@ enum class NormalMode : std::uint8_t {
                                          std::span<const glm::dvec3> pair_normals,
                                          NormalMode mode = NormalMode::Deform);
 
-/// The same of an OBJ file whose corners have no normals, with these added if a point moved: before
-/// the first face, and named in all. Throws ParameterError too for a file that is no OBJ, or has
-/// normals, or for another number of corners.
+/// The same of a file whose corners have no normals, with these added if a point moved: in OBJ
+/// files before the first face, and named in all; in others as bytes_with_point_normals() does.
+/// Throws ParameterError too for an STL file, for one that has normals, or for another number of
+/// corners.
 [[nodiscard]] std::string deformed_bytes_with_normals(const Model& model,
                                                       std::span<const glm::dvec3> points,
                                                       const CornerNormals& added);

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <numbers>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -18,6 +18,7 @@
 #include "deform/model/normals.h"
 #include "deform/model/polygon_cuts.h"
 #include "lattice/core/error.h"
+#include "lattice/osd/refine_values.h"
 #include "lattice/topology/face_triangles.h"
 
 namespace espalier {
@@ -43,7 +44,7 @@ double longest_edge(const DenseMesh& mesh) {
 [[noreturn]] void refuse_growth(double n_faces, double longest, double longest_now) {
   throw ParameterError(fmt::format(
       "densify: edges of at most {} would take {:.3g} faces or more, the limit is {:.3g}; the "
-      "longest edge is {}: give a larger length",
+      "longest edge is {:.4g}: give a larger length",
       longest, n_faces, kMostDenseFaces, longest_now));
 }
 
@@ -86,8 +87,9 @@ void check(const DenseMesh& mesh, DensifyMethod method, double longest) {
     }
     std::sort(loop.begin(), loop.end());
     if (std::adjacent_find(loop.begin(), loop.end()) != loop.end()) {
-      throw ParameterError(fmt::format("densify: face {} contains point {} twice", face,
-                                       *std::adjacent_find(loop.begin(), loop.end())));
+      throw ParameterError(
+          fmt::format("densify: face {} contains point {} twice, only midpoint takes such faces",
+                      face, *std::adjacent_find(loop.begin(), loop.end())));
     }
   }
   const double longest_now = longest_edge(mesh);
@@ -102,13 +104,11 @@ void check(const DenseMesh& mesh, DensifyMethod method, double longest) {
   }
 }
 
-/// One halving of edges.
-class Round {
+/// One halving of long edges. Libraries refine everywhere, or keep neither polygons nor seams, so
+/// this is our own.
+class Halving {
  public:
-  Round(DenseMesh& mesh, DensifyMethod method, double longest)
-      : mesh_(mesh), method_(method), edges_(mesh), n_old_points_(mesh.points.size()) {
-    mark(longest);
-  }
+  Halving(DenseMesh& mesh, double longest) : mesh_(mesh), edges_(mesh) { mark(longest); }
 
   [[nodiscard]] bool is_done() const { return n_marked_ == 0; }
   [[nodiscard]] double n_faces() const {
@@ -135,9 +135,6 @@ class Round {
         parents.push_back(mesh_.parents[face]);
       }
     }
-    if (method_ != DensifyMethod::Midpoint) {
-      smooth();
-    }
     mesh_.faces = std::move(faces);
     mesh_.parents = std::move(parents);
   }
@@ -160,10 +157,6 @@ class Round {
         new_points_[edge] = -2;
         ++n_marked_;
       }
-    }
-    if (n_marked_ > 0 && method_ != DensifyMethod::Midpoint) {
-      new_points_.assign(edges_.n_edges(), -2);
-      n_marked_ = edges_.n_edges();
     }
   }
 
@@ -250,7 +243,7 @@ class Round {
         middles[i] = corner_between(at, std::array{loop[i], loop[(i + 1) % loop.size()]});
       }
     }
-    if (loop.size() == 3 && method_ != DensifyMethod::CatmullClark) {
+    if (loop.size() == 3) {
       split_triangle({loop[0], loop[1], loop[2]}, {middles[0], middles[1], middles[2]}, out);
     } else if (n_marked(face) == 0) {
       out.push_back(loop);
@@ -310,7 +303,6 @@ class Round {
       points.push_back(corner.point);
     }
     const DenseCorner centre = corner_between(add_point(points), loop);
-    face_points_.push_back(centre.point);
     const std::size_t n = loop.size();
     for (std::size_t i = 0; i < n; ++i) {
       out.push_back({loop[i], middles[i], centre, middles[(i + n - 1) % n]});
@@ -335,88 +327,10 @@ class Round {
     }
   }
 
-  /// Moves the points of a smooth method from the middles, where they are, to their places.
-  void smooth() {
-    const bool is_loop = method_ == DensifyMethod::Loop;
-    std::vector<glm::dvec3> moved = mesh_.points;
-    for (std::size_t edge = 0; edge < edges_.n_edges(); ++edge) {
-      const auto faces = edges_.faces_of(edge);
-      if (faces.size() != 2) {
-        continue;
-      }
-      const auto [a, b] = edges_.ends(edge);
-      glm::dvec3& at = moved[static_cast<std::size_t>(new_points_[edge])];
-      if (is_loop) {
-        at = 0.375 * (point(a) + point(b)) +
-             0.125 * (point(opposite(faces[0], a, b)) + point(opposite(faces[1], a, b)));
-      } else {
-        at = 0.25 * (point(a) + point(b) + face_point(faces[0]) + face_point(faces[1]));
-      }
-    }
-    for (std::size_t i = 0; i < n_old_points_; ++i) {
-      moved[i] = smoothed(i, is_loop);
-    }
-    mesh_.points = std::move(moved);
-  }
-
-  /// Where an old point goes.
-  [[nodiscard]] glm::dvec3 smoothed(std::size_t i, bool is_loop) const {
-    const glm::dvec3& p = mesh_.points[i];
-    const auto edges = edges_.of_point(i);
-    glm::dvec3 sharp(0);
-    std::size_t n_sharp = 0;
-    glm::dvec3 around(0);
-    for (const std::int32_t edge : edges) {
-      const auto [a, b] = edges_.ends(static_cast<std::size_t>(edge));
-      const glm::dvec3& other = point(static_cast<std::size_t>(a) == i ? b : a);
-      around += other;
-      if (edges_.faces_of(static_cast<std::size_t>(edge)).size() != 2) {
-        sharp += other;
-        ++n_sharp;
-      }
-    }
-    const auto n = static_cast<double>(edges.size());
-    if (n_sharp > 0 || edges.empty()) {
-      const bool is_corner = n_sharp != 2 || edges.size() == 2;
-      return is_corner ? p : 0.75 * p + 0.125 * sharp;
-    }
-    if (is_loop) {
-      const double c = 0.375 + 0.25 * std::cos(2 * std::numbers::pi / n);
-      const double weight = (0.625 - c * c) / n;
-      return (1 - n * weight) * p + weight * around;
-    }
-    glm::dvec3 of_faces(0);
-    double n_faces = 0;
-    for (const std::int32_t edge : edges) {
-      for (const std::int32_t face : edges_.faces_of(static_cast<std::size_t>(edge))) {
-        of_faces += face_point(face);
-        n_faces += 1;
-      }
-    }
-    // Every face was met at two edges. Means over n faces F and n edge middles R: (F + 2R +
-    // (n−3)p)/n.
-    return (of_faces / n_faces + (around / n + p) + (n - 3) * p) / n;
-  }
-
-  [[nodiscard]] const glm::dvec3& face_point(std::int32_t face) const {
-    return point(face_points_[static_cast<std::size_t>(face)]);
-  }
-  [[nodiscard]] std::int32_t opposite(std::int32_t face, std::int32_t a, std::int32_t b) const {
-    for (const DenseCorner& corner : mesh_.faces[static_cast<std::size_t>(face)]) {
-      if (corner.point != a && corner.point != b) {
-        return corner.point;
-      }
-    }
-    return a;
-  }
-
   DenseMesh& mesh_;
-  DensifyMethod method_;
   MeshEdges edges_;
-  std::size_t n_old_points_;
   std::size_t n_marked_ = 0;
-  std::vector<std::int32_t> new_points_;   // of edges; -1: none, -2: to be made
-  std::vector<std::int32_t> face_points_;  // of faces that are cut, in their order
+  std::vector<std::int32_t> new_points_;  // of edges; -1: none, -2: to be made
   std::unordered_map<std::uint64_t, std::int32_t> textures_between_;
   std::unordered_map<std::uint64_t, std::int32_t> normals_between_;
 };
@@ -450,18 +364,12 @@ void cut_concave(DenseMesh& mesh, double longest) {
   mesh.parents = std::move(parents);
 }
 
-}  // namespace
-
-DenseMesh densified(DenseMesh mesh, DensifyMethod method, double longest,
-                    const Progress& progress) {
-  check(mesh, method, longest);
+void halve_long_edges(DenseMesh& mesh, double longest, const Progress& progress) {
   const double longest_before = longest_edge(mesh);
-  if (method == DensifyMethod::Midpoint) {
-    cut_concave(mesh, longest);
-  }
+  cut_concave(mesh, longest);
   for (int round = 0; round < kMostRounds; ++round) {
     progress.update("densify", 1 - std::exp2(-round));
-    Round next(mesh, method, longest);
+    Halving next(mesh, longest);
     if (next.is_done()) {
       break;
     }
@@ -470,6 +378,95 @@ DenseMesh densified(DenseMesh mesh, DensifyMethod method, double longest,
     }
     next.run();
   }
+}
+
+/// Texture coordinates, then normals.
+osd::SurfaceValues surface_of(DenseMesh mesh) {
+  osd::SurfaceValues surface{
+      std::move(mesh.points), mesh.n_extras, std::move(mesh.extras), {}, {}, {}};
+  surface.channels.resize(2);
+  surface.channels[0].values = std::move(mesh.textures);
+  surface.channels[1].values = std::move(mesh.normals);
+  std::vector<std::int32_t> loop;
+  for (std::size_t face = 0; face < mesh.faces.n_rows(); ++face) {
+    loop.clear();
+    for (const DenseCorner& corner : mesh.faces[face]) {
+      loop.push_back(corner.point);
+      surface.channels[0].of_corners.push_back(corner.texture);
+      surface.channels[1].of_corners.push_back(corner.normal);
+    }
+    surface.faces.push_back(loop);
+  }
+  return surface;
+}
+
+/// parents: of the faces that the surface is refined from.
+DenseMesh mesh_of(osd::SurfaceValues surface, std::span<const std::int32_t> parents) {
+  DenseMesh mesh;
+  std::vector<DenseCorner> corners;
+  std::size_t corner = 0;
+  for (std::size_t face = 0; face < surface.faces.n_rows(); ++face) {
+    corners.clear();
+    for (const std::int32_t point : surface.faces[face]) {
+      corners.push_back(
+          {point, surface.channels[0].of_corners[corner], surface.channels[1].of_corners[corner]});
+      ++corner;
+    }
+    mesh.faces.push_back(corners);
+    mesh.parents.push_back(parents[static_cast<std::size_t>(surface.parents[face])]);
+  }
+  mesh.points = std::move(surface.points);
+  mesh.n_extras = surface.n_extras;
+  mesh.extras = std::move(surface.extras);
+  mesh.textures = std::move(surface.channels[0].values);
+  mesh.normals = std::move(surface.channels[1].values);
+  return mesh;
+}
+
+void make_unit(std::vector<glm::dvec3>& normals) {
+  for (glm::dvec3& normal : normals) {
+    normal = unit_or_zero(normal);
+  }
+}
+
+void refine_smoothly(DenseMesh& mesh, osd::SurfaceScheme scheme, double longest,
+                     const Progress& progress) {
+  const double longest_before = longest_edge(mesh);
+  double longest_now = longest_before;
+  make_unit(mesh.normals);
+  for (int round = 0; round < kMostRounds && longest_now > longest; ++round) {
+    progress.update("densify", 1 - std::exp2(-round));
+    const double n_faces = scheme == osd::SurfaceScheme::Loop
+                               ? 4 * static_cast<double>(mesh.faces.n_rows())
+                               : static_cast<double>(mesh.faces.n_values());
+    if (n_faces > kMostDenseFaces) {
+      refuse_growth(n_faces, longest, longest_before);
+    }
+    const std::vector<std::int32_t> parents = std::move(mesh.parents);
+    mesh = mesh_of(osd::refine_values(surface_of(std::move(mesh)), scheme), parents);
+    make_unit(mesh.normals);
+    longest_now = longest_edge(mesh);
+  }
+}
+
+}  // namespace
+
+DenseMesh densified(DenseMesh mesh, DensifyMethod method, double longest,
+                    const Progress& progress) {
+  check(mesh, method, longest);
+  const std::vector<glm::dvec3> normals = mesh.normals;
+  switch (method) {
+    case DensifyMethod::Midpoint:
+      halve_long_edges(mesh, longest, progress);
+      break;
+    case DensifyMethod::Loop:
+      refine_smoothly(mesh, osd::SurfaceScheme::Loop, longest, progress);
+      break;
+    case DensifyMethod::CatmullClark:
+      refine_smoothly(mesh, osd::SurfaceScheme::CatmullClark, longest, progress);
+      break;
+  }
+  std::copy(normals.begin(), normals.end(), mesh.normals.begin());
   progress.update("densify", 1.0);
   return mesh;
 }

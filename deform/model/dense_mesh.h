@@ -34,7 +34,8 @@ struct DenseMesh {
   std::size_t n_extras = 0;          ///< further numbers of a point, such as colours
   std::vector<double> extras;        ///< #P × #extras
   std::vector<glm::dvec3> textures;  ///< #T × 3
-  std::vector<glm::dvec3> normals;   ///< #N × 3; new ones are of unit length
+  std::vector<glm::dvec3> normals;   ///< #N × 3; new ones are of unit length, or 0 by smooth
+                                     ///< methods between opposite ones
   CompressedRows<DenseCorner> faces;
   std::vector<std::int32_t> parents;  ///< #faces: the face of the original, ascending
 };
@@ -45,12 +46,11 @@ inline constexpr double kMostDenseFaces = 50e6;
 /// The mesh with edges of at most `longest`. Midpoint halves only edges that are longer: a polygon
 /// whose edges are all cut becomes quadrilaterals, one with some cut becomes two quadrilaterals or
 /// triangles, and a concave one is cut into triangles first. The smooth methods refine everywhere,
-/// with borders as cubic splines that keep the points of single faces, and edges of more than two
-/// faces sharp; texture coordinates and normals are interpolated. The result holds the same bits
-/// for any number of threads. Throws ParameterError, with the numbers, if more than kMostDenseFaces
-/// faces would be needed; naming a face if Loop meets one that is no triangle, a smooth method one
-/// that has a point twice, or any a face of more than 2000 corners; and if `longest` is not
-/// positive. Tells `progress` "densify".
+/// as osd::refine_values(); texture coordinates and normals are interpolated. The result holds the
+/// same bits for any number of threads. Throws ParameterError, with the numbers, if more than
+/// kMostDenseFaces faces would be needed; naming a face if Loop meets one that is no triangle, a
+/// smooth method one that has a point twice, or any a face of more than 2000 corners; and if
+/// `longest` is not positive. Tells `progress` "densify".
 [[nodiscard]] DenseMesh densified(DenseMesh mesh, DensifyMethod method, double longest,
                                   const Progress& progress = {});
 

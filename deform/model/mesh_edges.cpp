@@ -2,15 +2,12 @@
 
 #include <algorithm>
 
-#include "deform/model/pairs.h"
-
 namespace espalier {
 
 MeshEdges::MeshEdges(const DenseMesh& mesh) {
   struct Use {
     std::array<std::int32_t, 2> ends;
     std::int32_t corner;
-    std::int32_t face;
   };
   std::vector<Use> uses;
   uses.reserve(mesh.faces.n_values());
@@ -20,9 +17,7 @@ MeshEdges::MeshEdges(const DenseMesh& mesh) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const std::int32_t a = loop[i].point;
       const std::int32_t b = loop[(i + 1) % loop.size()].point;
-      uses.push_back({{std::min(a, b), std::max(a, b)},
-                      static_cast<std::int32_t>(uses.size()),
-                      static_cast<std::int32_t>(face)});
+      uses.push_back({{std::min(a, b), std::max(a, b)}, static_cast<std::int32_t>(uses.size())});
     }
     first_corner_.push_back(uses.size());
   }
@@ -30,29 +25,11 @@ MeshEdges::MeshEdges(const DenseMesh& mesh) {
     return a.ends != b.ends ? a.ends < b.ends : a.corner < b.corner;
   });
   of_corner_.resize(uses.size());
-  std::vector<std::int32_t> faces;
-  std::vector<std::int32_t> ends_of_points;
-  for (std::size_t i = 0; i < uses.size();) {
-    faces.clear();
-    std::size_t k = i;
-    for (; k < uses.size() && uses[k].ends == uses[i].ends; ++k) {
-      of_corner_[static_cast<std::size_t>(uses[k].corner)] =
-          static_cast<std::int32_t>(ends_.size());
-      faces.push_back(uses[k].face);
+  for (const Use& use : uses) {
+    if (ends_.empty() || ends_.back() != use.ends) {
+      ends_.push_back(use.ends);
     }
-    ends_.push_back(uses[i].ends);
-    ends_of_points.insert(ends_of_points.end(), uses[i].ends.begin(), uses[i].ends.end());
-    faces_.push_back(faces);
-    i = k;
-  }
-  const CompressedRows<std::int32_t> halves = rows_by_key(ends_of_points, mesh.points.size());
-  std::vector<std::int32_t> edges;
-  for (std::size_t point = 0; point < halves.n_rows(); ++point) {
-    edges.clear();
-    for (const std::int32_t half : halves[point]) {
-      edges.push_back(half / 2);
-    }
-    of_point_.push_back(edges);
+    of_corner_[static_cast<std::size_t>(use.corner)] = static_cast<std::int32_t>(ends_.size()) - 1;
   }
 }
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "deform/model/dense_mesh.h"
-#include "lattice/core/compressed_rows.h"
 
 namespace espalier {
 
@@ -27,19 +26,11 @@ class MeshEdges {
   [[nodiscard]] std::span<const std::int32_t> of_face(std::size_t face) const {
     return {of_corner_.data() + first_corner_[face], first_corner_[face + 1] - first_corner_[face]};
   }
-  [[nodiscard]] std::span<const std::int32_t> faces_of(std::size_t edge) const {
-    return faces_[edge];
-  }
-  [[nodiscard]] std::span<const std::int32_t> of_point(std::size_t point) const {
-    return of_point_[point];
-  }
 
  private:
   std::vector<std::array<std::int32_t, 2>> ends_;
   std::vector<std::int32_t> of_corner_;
   std::vector<std::size_t> first_corner_;
-  CompressedRows<std::int32_t> faces_;
-  CompressedRows<std::int32_t> of_point_;
 };
 
 }  // namespace espalier

@@ -12,124 +12,11 @@
 
 #include "deform/model/encoded_number.h"
 #include "deform/model/pairs.h"
+#include "deform/model/ply_body.h"
 #include "deform/model/ply_header.h"
 
 namespace espalier {
 namespace {
-
-/// A number of the body and where it stands.
-struct PlacedNumber {
-  double value = 0;
-  BytePlace place;
-};
-
-/// What stands in a body, one number after the other.
-class PlyBody {
- public:
-  /// scanner: at the end of the header.
-  PlyBody(std::string_view path, std::string_view bytes, TextScanner scanner, PlyEncoding encoding)
-      : path_(path), bytes_(bytes), scanner_(std::move(scanner)), encoding_(encoding) {
-    const std::string_view last = scanner_.line();
-    at_ = static_cast<std::size_t>(last.data() + last.size() - bytes.data());
-    at_ += bytes.substr(at_).starts_with("\r\n") ? 2 : 1;
-  }
-
-  /// To be called before the numbers of element `index` of a kind.
-  void begin_element(const PlyElement& element, std::int64_t index) {
-    element_ = &element;
-    index_ = index;
-    if (encoding_ != PlyEncoding::Text) {
-      return;
-    }
-    do {
-      if (!scanner_.next_line()) {
-        fail_at_end();
-      }
-      ahead_ = scanner_.next_word();
-    } while (ahead_.empty());
-  }
-
-  [[nodiscard]] PlacedNumber next(PlyType type, std::string_view what) {
-    return encoding_ == PlyEncoding::Text ? next_word(what) : next_bytes(type);
-  }
-
-  /// Of a coordinate of this type.
-  [[nodiscard]] NumberEncoding encoding_of(PlyType type) const {
-    const bool is_float = type == PlyType::Float;
-    switch (encoding_) {
-      case PlyEncoding::Text:
-        return is_float ? NumberEncoding::FloatText : NumberEncoding::DoubleText;
-      case PlyEncoding::Little:
-        return is_float ? NumberEncoding::LittleFloat : NumberEncoding::LittleDouble;
-      default:
-        return is_float ? NumberEncoding::BigFloat : NumberEncoding::BigDouble;
-    }
-  }
-
-  [[noreturn]] void fail(std::string_view what) const {
-    const std::string message = fmt::format("{} {}: {}", element_->name, index_, what);
-    if (encoding_ == PlyEncoding::Text) {
-      scanner_.fail(message);
-    }
-    throw FileError(path_, message);
-  }
-
- private:
-  [[noreturn]] void fail_at_end() const {
-    throw FileError(path_, fmt::format("ends in element {} of the {} '{}' that it announces",
-                                       index_, element_->count, element_->name));
-  }
-
-  PlacedNumber next_word(std::string_view what) {
-    const std::string_view word = ahead_.empty() ? scanner_.next_word() : std::exchange(ahead_, {});
-    PlacedNumber number;
-    if (word.empty()) {
-      fail(fmt::format("{} is missing", what));
-    }
-    if (!parse_number(word, number.value)) {
-      fail(fmt::format("{} is {}, not a number", what, quoted(word)));
-    }
-    if (word.size() > BytePlace::kLargestLength) {
-      fail(fmt::format("{} has more than {} characters", what, BytePlace::kLargestLength));
-    }
-    number.place = BytePlace(static_cast<std::size_t>(word.data() - bytes_.data()), word.size());
-    return number;
-  }
-
-  PlacedNumber next_bytes(PlyType type) {
-    const std::size_t size = size_of(type);
-    if (at_ > bytes_.size() || bytes_.size() - at_ < size) {
-      fail_at_end();
-    }
-    PlacedNumber number;
-    number.place = BytePlace(at_, size);
-    const std::string_view bytes = bytes_.substr(at_, size);
-    at_ += size;
-    if (type == PlyType::Float || type == PlyType::Double) {
-      number.value = decoded(bytes, encoding_of(type));
-      return number;
-    }
-    std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::size_t from = encoding_ == PlyEncoding::Little ? size - 1 - i : i;
-      bits = bits << 8 | static_cast<unsigned char>(bytes[from]);
-    }
-    const bool is_signed =
-        type == PlyType::Int8 || type == PlyType::Int16 || type == PlyType::Int32;
-    const double range = std::ldexp(1.0, static_cast<int>(8 * size));
-    number.value = is_signed && bits >= range / 2 ? bits - range : bits;
-    return number;
-  }
-
-  std::string path_;
-  std::string_view bytes_;
-  TextScanner scanner_;
-  PlyEncoding encoding_;
-  std::size_t at_ = 0;      // in a binary body
-  std::string_view ahead_;  // a word of a text body, taken but not used
-  const PlyElement* element_ = nullptr;
-  std::int64_t index_ = 0;
-};
 
 class PlyScanner {
  public:
@@ -205,7 +92,7 @@ class PlyScanner {
                                          "point could not be written",
                                          property.name));
     }
-    const NumberEncoding own = body_.encoding_of(property.type);
+    const NumberEncoding own = number_encoding(header_.encoding, property.type);
     encoding = encoding == NumberEncoding::DoubleText ? encoding : own;
   }
 
@@ -261,28 +148,18 @@ class PlyScanner {
     }
   }
 
-  /// A whole number from 0 on that an int32 holds.
-  [[nodiscard]] std::int32_t next_index(PlyType type, std::string_view what) {
-    const double value = body_.next(type, what).value;
-    if (!(value >= 0 && value <= std::numeric_limits<std::int32_t>::max()) ||
-        value != std::floor(value)) {
-      body_.fail(fmt::format("{} is {}, must be a whole number from 0", what, value));
-    }
-    return static_cast<std::int32_t>(value);
-  }
-
   void skip_list(const PlyProperty& property) {
-    const std::int32_t length = next_index(*property.count_type, "the length of a list");
+    const std::int32_t length = body_.next_index(*property.count_type, "the length of a list");
     for (std::int32_t i = 0; i < length; ++i) {
       (void)body_.next(property.type, property.name);
     }
   }
 
   void read_face(const PlyProperty& property) {
-    const std::int32_t length = next_index(*property.count_type, "the number of corners");
+    const std::int32_t length = body_.next_index(*property.count_type, "the number of corners");
     face_.clear();
     for (std::int32_t i = 0; i < length; ++i) {
-      face_.push_back(next_index(property.type, "a corner"));
+      face_.push_back(body_.next_index(property.type, "a corner"));
     }
     if (face_.size() >= 3) {
       layout_.faces.push_back(face_);

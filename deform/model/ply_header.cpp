@@ -64,6 +64,8 @@ PlyEncoding read_encoding(TextScanner& scanner) {
 PlyElement read_element(TextScanner& scanner) {
   PlyElement element;
   element.name = scanner.next_word();
+  TextScanner ahead = scanner;
+  element.count_word = ahead.next_word();
   element.count = scanner.next_integer("the number of elements");
   if (element.count < 0 || element.count > std::numeric_limits<std::int32_t>::max()) {
     scanner.fail(fmt::format("{} elements '{}' are announced, must be 0 to 2147483647",
@@ -117,6 +119,7 @@ PlyHeader read_ply_header(TextScanner& scanner) {
         scanner.fail("a property stands before the first element");
       }
       header.elements.back().properties.push_back(read_property(scanner));
+      header.elements.back().last_line = scanner.line();
     } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
       scanner.fail(
           fmt::format("{} in the header, must be format, comment, element, property or "

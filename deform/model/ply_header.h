@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lattice/core/text_scanner.h"
@@ -25,7 +26,9 @@ struct PlyProperty {
 struct PlyElement {
   std::string name;
   std::int64_t count = 0;
+  std::string_view count_word;  ///< where the scanned text has it
   std::vector<PlyProperty> properties;
+  std::string_view last_line;  ///< that of its last property, there
 };
 
 enum class PlyEncoding : std::uint8_t { Text, Little, Big };

@@ -5,6 +5,15 @@
 
 namespace espalier {
 
+void Splices::replace(std::size_t begin, std::size_t end, std::string_view text) {
+  // A place holds 16 MiB at most; a longer stretch is replaced bit by bit.
+  const std::size_t most = BytePlace::kLargestLength;
+  replace(BytePlace(begin, std::min(end - begin, most)), text);
+  for (std::size_t at = begin + most; at < end; at += most) {
+    replace(BytePlace(at, std::min(end - at, most)), "");
+  }
+}
+
 std::string Splices::apply(std::string_view bytes) {
   const auto is_before = [](const Edit& a, const Edit& b) {
     return a.place.begin() < b.place.begin();

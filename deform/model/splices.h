@@ -19,6 +19,8 @@ class Splices {
     edits_.push_back({place, texts_.size(), text.size()});
     texts_ += text;
   }
+  /// The same of any number of bytes, from `begin` to `end`.
+  void replace(std::size_t begin, std::size_t end, std::string_view text);
   void insert(std::size_t at, std::string_view text) { replace(BytePlace(at, 0), text); }
 
   [[nodiscard]] bool empty() const { return edits_.empty(); }

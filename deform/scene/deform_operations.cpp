@@ -336,9 +336,9 @@ std::vector<Operation> deform_operations() {
          .is_list = true},
         {.name = "normals",
          .type = Type::Text,
-         .help = "deform (default), keep their number, or add[:DEGREES]: where an OBJ file has "
-                 "none, add them, split at edges sharper than that (default 40) or between its "
-                 "smoothing groups",
+         .help = "deform (default), keep their number, or add[:DEGREES]: where a file has none, "
+                 "add them, split at edges sharper than that (default 40) or between an OBJ file's "
+                 "smoothing groups; OFF and PLY files get points there once more, after all others",
          .fallback = Value(std::string("deform"))},
         {.name = "densify",
          .type = Type::Text,
@@ -368,7 +368,7 @@ std::vector<Operation> deform_operations() {
          .is_list = true},
         {.name = "output",
          .type = Type::Result,
-         .help = "the denser model (.obj)",
+         .help = "the denser model, in the format of the model",
          .is_required = true}},
        densify},
   };

@@ -19,6 +19,9 @@ namespace {
 /// Control points that move so many times as far as picks bend space more than anybody wants.
 constexpr double kFarGain = 10;
 
+/// Told of a step that is not all of the way.
+constexpr double kNearlyAll = 0.9999;
+
 /// That of a bound model, or a new one.
 std::shared_ptr<const Volume> volume_of(const Scene& scene, const Arguments& arguments,
                                         const Progress& progress) {
@@ -73,7 +76,8 @@ std::string PullReport::sentence() const {
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
   if (step < 1) {
-    add(fmt::format("stopped at {} of the way, where the lattice begins to fold", step));
+    add(fmt::format("stopped at {:.4g} of the way, where the lattice begins to fold",
+                    std::min(step, kNearlyAll)));
   }
   if (has_misses) {
     add("the lattice is too coarse to take all picks to their targets: refine it, unpin control "

@@ -12,6 +12,7 @@
 #include "deform/scene/index_list.h"
 #include "deform/scene/indexed_vector.h"
 #include "deform/scene/lattice_parameters.h"
+#include "lattice/core/box.h"
 #include "lattice/core/error.h"
 #include "lattice/core/text_scanner.h"
 
@@ -23,6 +24,8 @@ using Type = ParameterType;
 constexpr double kLeastStiffness = 1e-6;
 constexpr double kMostStiffness = 1e6;
 constexpr int kMostLevels = 8;
+/// Told of a place that is so far from the surface, of the model's diagonal.
+constexpr double kFar = 0.01;
 
 /// "NAME=VALUE", split at the last '='; without one all is the name.
 struct Assignment {
@@ -47,6 +50,7 @@ void add_picks(const Arguments& arguments, const Model& model, PullRequest& requ
 }
 
 void add_surface_picks(const Arguments& arguments, const Model& model, PullRequest& request) {
+  const double far = kFar * 2 * box_of(model.points()).radius();
   for (const std::string& word : arguments.texts("pick-at")) {
     const Assignment parts(word);
     glm::dvec3 place(0);
@@ -61,6 +65,9 @@ void add_surface_picks(const Arguments& arguments, const Model& model, PullReque
     const glm::dvec3 found = place_of(point.point, model.points());
     point.name = fmt::format("the surface at ({:.6g}, {:.6g}, {:.6g})", found.x, found.y, found.z);
     request.picks.push_back({point.name});
+    if (const double distance = glm::distance(found, place); distance > far) {
+      request.picks.back().name += fmt::format(", {:.3g} from {}", distance, parts.name);
+    }
     request.task.points.push_back(std::move(point));
   }
 }
@@ -79,6 +86,11 @@ std::vector<std::size_t> points_named(const char* option, const std::string& nam
       }
       weights[i] = 1;
     }
+  } else if (!name.empty() && name.find_first_not_of("0123456789,-") == std::string::npos) {
+    throw ParameterError(
+        fmt::format("'{}' is '{}', must be indices of the model's points, 0 to {}, such as "
+                    "0,3,7-9, or a group or @FILE",
+                    option, name, weights.size() - 1));
   } else if (!name.empty()) {
     weights = point_weights(model, std::vector<std::string>{name}, "");
   }

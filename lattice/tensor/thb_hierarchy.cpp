@@ -284,8 +284,8 @@ std::vector<GridIndex> cells_of_box(const std::array<int, 3>& n_cells, const glm
       const double line = std::round(at * n_along);
       if (!(line >= 0 && line <= n_along && std::abs(at - line / n_along) <= kSnap)) {
         throw ParameterError(fmt::format(
-            "the box's side at {} = {} is no line between cells: a multiple of 1/{} from 0 to 1",
-            "uvw"[axis], at, n_along));
+            "the box's side at {} = {} is no line between cells: {}", "uvw"[axis], at,
+            n_along == 1 ? "0 or 1" : fmt::format("a multiple of 1/{} from 0 to 1", n_along)));
       }
       lines[as_size(axis)][is_high ? 1 : 0] = static_cast<std::int32_t>(line);
     }

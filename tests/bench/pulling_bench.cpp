@@ -33,7 +33,7 @@ std::vector<glm::dvec3> random_places(std::size_t n) {
 }
 
 void bench_energy(const std::string& name, const StencilTable& rows,
-                  const std::shared_ptr<const MotionEnergy>& energy, bool has_mark) {
+                  const std::shared_ptr<const MotionEnergy>& energy) {
   std::vector<glm::dvec3> wanted(rows.n_rows());
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     wanted[i] = 0.01 * glm::dvec3(std::sin(static_cast<double>(i)), 1, 0);
@@ -51,11 +51,7 @@ void bench_energy(const std::string& name, const StencilTable& rows,
       },
       5);
   print(name + ": factorising", factorising, "s");
-  if (has_mark) {
-    print_mark(name + ": the motion", 1e3 * moving, '<', kMostMilliseconds);
-  } else {
-    print(name + ": the motion", 1e3 * moving, "ms");
-  }
+  print_mark(name + ": the motion", 1e3 * moving, '<', kMostMilliseconds);
   print(name + ": the motion, to copying as many numbers as the factor has",
         moving / copy_seconds(8 * rows.n_controls() * rows.n_rows()), "");
   print(name + ": farthest from a target", worst, "of the lattice's size");
@@ -72,9 +68,8 @@ void bench_pulling() {
   const StencilTable rows = control_weights(volume, embed(volume, random_places(kPicks)));
   fmt::print("  {} picks, {} control points, milliseconds of one thread\n", rows.n_rows(),
              rows.n_controls());
-  bench_energy("smallest motion", rows, smallest_motion(rows), true);
-  bench_energy("smooth motion", rows, smooth_motion(rows, neighbour_differences(lattice, volume)),
-               false);
+  bench_energy("smallest motion", rows, smallest_motion(rows));
+  bench_energy("smooth motion", rows, smooth_motion(rows, neighbour_differences(lattice, volume)));
   set_thread_count(0);
 }
 

@@ -13,7 +13,6 @@
 
 #include "deform/model/polygon_cuts.h"
 #include "lattice/core/error.h"
-#include "lattice/osd/refine_surface.h"
 #include "lattice/topology/face_triangles.h"
 
 namespace espalier {
@@ -231,25 +230,31 @@ TEST(DenseMesh, by_smooth_methods_commutes_with_affine_maps) {
   }
 }
 
-TEST(DenseMesh, by_catmull_clark_is_opensubdivs) {
-  Loops open = kHouseFaces;
-  open.pop_back();
-  open.erase(open.begin());
-  for (const Loops& loops : {kHouseFaces, open}) {
-    const DenseMesh mesh = densified(mesh_of(kHouse, loops), DensifyMethod::CatmullClark, 1.2);
-    CompressedRows<std::int32_t> faces;
-    for (const auto& loop : loops) {
-      faces.push_back(loop);
-    }
-    const osd::RefinedSurface expected = osd::refine_surface(kHouse, faces, 1);
-    ASSERT_EQ(mesh.points.size(), expected.points.size());
-    ASSERT_EQ(mesh.faces.n_rows(), expected.faces.n_rows());
-    for (const glm::dvec3& p : mesh.points) {
-      EXPECT_TRUE(std::ranges::any_of(
-          expected.points, [&](const glm::dvec3& q) { return glm::distance(p, q) < 1e-14; }))
-          << p.x << ' ' << p.y << ' ' << p.z;
-    }
+TEST(DenseMesh, by_catmull_clark_has_their_masks) {
+  std::vector<glm::dvec3> cube;
+  for (int i = 0; i < 8; ++i) {
+    cube.emplace_back((i & 1) * 2 - 1, (i >> 1 & 1) * 2 - 1, (i >> 2) * 2 - 1);
   }
+  const Loops faces = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                       {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  const DenseMesh mesh = densified(mesh_of(cube, faces), DensifyMethod::CatmullClark, 1.2);
+  ASSERT_EQ(mesh.points.size(), 26u);
+  const auto has = [&](const glm::dvec3& place) {
+    return std::ranges::any_of(
+        mesh.points, [&](const glm::dvec3& p) { return glm::distance(p, place) < 1e-15; });
+  };
+  EXPECT_LT(glm::distance(mesh.points[7], glm::dvec3(5.0 / 9)), 1e-15);
+  EXPECT_LT(glm::distance(mesh.points[0], glm::dvec3(-5.0 / 9)), 1e-15);
+  EXPECT_TRUE(has({0.75, 0.75, 0}));
+  EXPECT_TRUE(has({0, -0.75, 0.75}));
+  EXPECT_TRUE(has({0, 0, 1}));
+  // A border as a cubic spline.
+  const DenseMesh strip =
+      densified(mesh_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 1}, {0, 1, 0}, {1, 1, 0}, {2, 1, 1}},
+                        {{0, 1, 4, 3}, {1, 2, 5, 4}}),
+                DensifyMethod::CatmullClark, 1.2);
+  EXPECT_LT(glm::distance(strip.points[1], glm::dvec3(1, 0, 0.125)), 1e-15);
+  EXPECT_EQ(strip.points[2], glm::dvec3(2, 0, 1));
 }
 
 TEST(DenseMesh, refuses_what_it_cannot_do_with_the_numbers) {
@@ -266,7 +271,8 @@ TEST(DenseMesh, refuses_what_it_cannot_do_with_the_numbers) {
               std::string::npos);
   }
   const DenseMesh twice = mesh_of(kHouse, {{0, 1, 2}, {3, 4, 3}});
-  EXPECT_EQ(error_of(twice, DensifyMethod::Loop, 1), "densify: face 1 contains point 3 twice");
+  EXPECT_EQ(error_of(twice, DensifyMethod::Loop, 1),
+            "densify: face 1 contains point 3 twice, only midpoint takes such faces");
   EXPECT_EQ(error_of(twice, DensifyMethod::Midpoint, 1), "");
   const Progress cancel([](std::string_view, double) { return false; });
   EXPECT_THROW((void)densified(house, DensifyMethod::Midpoint, 0.1, cancel), Cancelled);

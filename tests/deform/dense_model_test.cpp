@@ -126,10 +126,6 @@ TEST(DenseModel, names_what_it_does_not_take) {
     }
     return "";
   };
-  EXPECT_EQ(error_of(parse_model(ModelFormat::Off, "m.off",
-                                 "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n"
-                                 "3 0 1 2\n")),
-            "densify: m.off is no OBJ file, only these can be made denser");
   EXPECT_EQ(error_of(parse_obj("m.obj", "v 0 0 0\n")), "densify: m.obj has no faces");
   EXPECT_EQ(error_of(parse_obj("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ncurv 0 1 1 2\n")),
             "densify: m.obj has free-form curves or surfaces (line 5), only polygons are refined");

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -62,6 +64,14 @@ double largest(std::span<const glm::dvec3> vectors) {
   return most;
 }
 
+double largest(std::span<const double> numbers) {
+  double most = 0;
+  for (const double number : numbers) {
+    most = std::max(most, std::abs(number));
+  }
+  return most;
+}
+
 std::vector<glm::dvec3> difference(std::span<const glm::dvec3> a, std::span<const glm::dvec3> b) {
   std::vector<glm::dvec3> result(a.begin(), a.end());
   for (std::size_t i = 0; i < result.size(); ++i) {
@@ -79,6 +89,54 @@ TEST(MinimumNorm, of_fewer_equations_meets_them_and_has_no_part_that_they_do_not
   EXPECT_LT(largest(difference(product(transposed, y), b)), 1e-13);
   // The smallest solution is a combination of the equations: solving for what it gives is itself.
   EXPECT_LT(largest(difference(solver.solve(product(transposed, y)).y, y)), 1e-13);
+}
+
+TEST(MinimumNorm, of_sizes_round_those_of_its_panels_solves_as_well) {
+  for (const std::size_t n : {1u, 63u, 64u, 65u, 129u, 200u}) {
+    const DenseMatrix wide = random_matrix(n + 20, n, 5);
+    const auto b = random_vectors(n, 6);
+    const auto y = MinimumNorm(wide).solve(b).y;
+    EXPECT_LT(largest(difference(product(wide, y), b)), 1e-11) << n;
+    EXPECT_LT(largest(MinimumNorm(wide).independent_part(wide, {}).values), 1e-13) << n;
+    const DenseMatrix tall = random_matrix(n, n + 20, 7);
+    const auto c = random_vectors(n + 20, 8);
+    const auto missed = difference(product(tall, MinimumNorm(tall).solve(c).y), c);
+    EXPECT_LT(largest(product_transposed(tall, missed)), 1e-11) << n;
+  }
+}
+
+TEST(MinimumNorm, counts_equations_that_are_others_within_round_off_as_these) {
+  for (const auto& [apart, rank] : {std::pair(1e-15, 39u), std::pair(1e-7, 40u)}) {
+    DenseMatrix transposed = random_matrix(70, 40, 11);
+    for (std::size_t k = 0; k < 70; ++k) {  // the last: half the sum of the first two
+      transposed.values[39 * 70 + k] = 0.5 * (transposed.values[k] + transposed.values[70 + k]) +
+                                       apart * (k % 3 == 0 ? 1.0 : -1.0);
+    }
+    EXPECT_EQ(MinimumNorm(transposed).rank(), rank);
+    const auto b = product(transposed, random_vectors(70, 12));
+    const auto y = MinimumNorm(transposed).solve(b).y;
+    EXPECT_LT(largest(difference(product(transposed, y), b)), 1e-13);
+    EXPECT_LT(largest(y), 10);
+  }
+}
+
+TEST(MinimumNorm, tells_how_far_it_is_and_can_be_cancelled) {
+  const DenseMatrix transposed = random_matrix(300, 200, 9);
+  double last = -1;
+  int n_told = 0;
+  const Progress progress([&](std::string_view task, double fraction) {
+    EXPECT_EQ(task, "factorise");
+    EXPECT_GE(fraction, last);
+    EXPECT_LE(fraction, 1);
+    last = fraction;
+    ++n_told;
+    return true;
+  });
+  const MinimumNorm solver(transposed, {}, progress);
+  EXPECT_GE(n_told, 8);
+  EXPECT_EQ(last, 1);
+  const Progress cancel([](std::string_view, double fraction) { return fraction < 0.6; });
+  EXPECT_THROW(MinimumNorm(transposed, {}, cancel), Cancelled);
 }
 
 TEST(MinimumNorm, of_more_equations_leaves_a_residual_without_slope) {

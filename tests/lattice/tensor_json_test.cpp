@@ -156,6 +156,11 @@ TEST(TensorJson, says_what_is_wrong_with_a_hierarchy) {
   EXPECT_EQ(complaint(start + R"(, "levels": [[[[0,0,0],[0.3,1,1]]]]})"),
             "levels[0][0]: the box's side at u = 0.3 is no line between cells: a multiple of 1/2 "
             "from 0 to 1");
+  EXPECT_EQ(
+      complaint(
+          kStart +
+          R"("thb", "counts": [3,3,3], "degree": [2,2,2], "levels": [[[[0,0,0],[0.3,1,1]]]]})"),
+      "levels[0][0]: the box's side at u = 0.3 is no line between cells: 0 or 1");
   EXPECT_EQ(complaint(start + R"(, "levels": [[[0,0,0]]]})"),
             "levels[0][0]: is not a box: [[u0, v0, w0], [u1, v1, w1]]");
   EXPECT_EQ(complaint(start + R"(, "levels": [[], [[[0,0,0],[0.5,0.5,0.5]]]]})"),

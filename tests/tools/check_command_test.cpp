@@ -64,6 +64,14 @@ TEST_F(CheckCommand, tells_the_largest_step_of_a_drag) {
     all.insert(all.end(), {"--drag", std::to_string(i) + "=0,2,0"});
   }
   EXPECT_TRUE(report(all, 0)["largest_step"].is_null());  // a translation
+  // People are told six digits, rounded down.
+  const std::string text = done({"check", "box.json", "--drag", index + "=0,2,0"});
+  const std::size_t at = text.find("  largest step: 1.68");
+  ASSERT_NE(at, std::string::npos) << text;
+  const double told = std::stod(text.substr(at + 16));
+  EXPECT_LE(told, json["largest_step"].get<double>());
+  EXPECT_NEAR(told, json["largest_step"].get<double>(), 1e-5);
+  EXPECT_LE(text.size() - at, std::string("  largest step: 1.68750\n").size());
 }
 
 TEST_F(CheckCommand, certifies_a_moved_boundary) {

@@ -53,6 +53,57 @@ TEST_F(DensifyCommand, makes_edges_as_short_as_a_length_or_as_cells_of_a_lattice
   }
 }
 
+TEST_F(DensifyCommand, takes_models_of_all_formats_and_keeps_theirs) {
+  write_file("plate.off", "OFF\n4 1 0\n.1 .1 .5\n.9 .1 .5\n.9 .9 .5\n.1 .9 .5\n4 0 1 2 3\n");
+  write_file("plate.ply",
+             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+             "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+             "end_header\n.1 .1 .5\n.9 .1 .5\n.9 .9 .5\n3 0 1 2\n");
+  write_file("plate.stl",
+             "solid\nfacet normal 0 0 1\nouter loop\nvertex .1 .1 .5\nvertex .9 .1 .5\n"
+             "vertex .9 .9 .5\nendloop\nendfacet\nendsolid\n");
+  for (const std::string kind : {".off", ".ply", ".stl"}) {
+    done({"densify", "plate" + kind, "--lattice", "box.json", "-o", "dense" + kind});
+    EXPECT_LE(longest_edge("dense" + kind), 0.125 * (1 + 1e-6)) << kind;
+    done({"deform", "plate" + kind, "--lattice", "box.json", "--pose", "bent.json", "--densify",
+          "midpoint", "-o", "fine" + kind});
+    EXPECT_GT(read_model("fine" + kind).points().size(), 30u) << kind;
+  }
+  EXPECT_EQ(refusal({"densify", "plate.off", "--length", "0.3", "-o", "dense.obj"}, 1),
+            "dense.obj: cannot write plate.off as '.obj': a model keeps its format; name the "
+            "output *.off");
+}
+
+TEST_F(DensifyCommand, keeps_sharp_edges_sharp_where_normals_are_added) {
+  const std::string faces = "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
+  std::string off = "OFF\n8 6 0\n";
+  std::string obj;
+  for (int i = 0; i < 8; ++i) {
+    const std::string place =
+        std::string(i & 1 ? " .9" : " .1") + (i & 2 ? " .9" : " .1") + (i & 4 ? " .9" : " .1");
+    off += place + "\n";
+    obj += "v" + place + "\n";
+  }
+  write_file("cube.off", off + faces);
+  write_file("cube.obj",
+             obj + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
+  pose_by("box.json", "turned.json", [](const glm::dvec3& x) { return glm::dvec3(x.y, x.z, x.x); });
+  for (const std::string kind : {".off", ".obj"}) {
+    done({"deform", "cube" + kind, "--lattice", "box.json", "--pose", "turned.json", "--densify",
+          "midpoint:0.45", "--normals", "add", "-o", "out" + kind});
+    const Model model = read_model("out" + kind);
+    EXPECT_EQ(model.faces().n_rows(), 24u) << kind;
+    EXPECT_EQ(model.points().size(), kind == ".off" ? 6u * 9 : 26u) << kind;
+    EXPECT_EQ(model.pairs().size(), 6u * 9) << kind;
+    for (const PointNormal& pair : model.pairs()) {
+      const glm::dvec3& p = model.points()[static_cast<std::size_t>(pair.point)];
+      const glm::dvec3& n = model.normals()[static_cast<std::size_t>(pair.normal)];
+      EXPECT_NEAR(std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}), 1, 1e-6) << kind;
+      EXPECT_NEAR(glm::dot(p - 0.5, n), 0.4, 1e-6) << kind;  // on the face that it is of
+    }
+  }
+}
+
 TEST_F(DensifyCommand, takes_a_length_or_a_lattice_and_not_both) {
   EXPECT_EQ(refusal({"densify", "plate.obj", "--length", "0.3", "--lattice", "box.json", "-o",
                      "dense.obj"},

@@ -58,6 +58,26 @@ TEST_F(PullCommand, stops_where_the_lattice_begins_to_fold) {
   EXPECT_EQ(Json::parse(done({"check", "pulled.json", "--json"}))["local"], "certified");
 }
 
+TEST_F(PullCommand, tells_people_no_more_digits_than_they_read) {
+  const std::string text = done({"pull", "box.json", "--model", "model.obj", "--pick", "0=8,4,4",
+                                 "--stop-at-fold", "-o", "pulled.json"});
+  EXPECT_NE(text.find("  stopped at 0.3333 of the way, where the lattice begins to fold\n"),
+            std::string::npos)
+      << text;
+  const Json json = pull({"--pick", "0=5.33334,4,4", "--stop-at-fold"});
+  EXPECT_EQ(json["message"], "stopped at 0.9999 of the way, where the lattice begins to fold");
+}
+
+TEST_F(PullCommand, tells_when_a_place_is_far_from_the_surface) {
+  const Json json = pull({"--pick-at", "3,3,3=3,3,3", "--pick-at", "9,4.5,3=5,4.5,3"});
+  EXPECT_EQ(json["picks"].size(), 2u);
+  const std::string text =
+      done({"pull", "box.json", "--model", "model.obj", "--pick-at", "3,3,3=3,3,3", "--pick-at",
+            "9,4.5,3=5,4.5,3", "-o", "pulled.json"});
+  EXPECT_NE(text.find("  the surface at (3, 3, 3): "), std::string::npos) << text;
+  EXPECT_NE(text.find("  the surface at (5, 4.5, 3), 4 from 9,4.5,3: "), std::string::npos) << text;
+}
+
 TEST_F(PullCommand, says_when_the_lattice_is_too_coarse) {
   done({"new", "bezier", "--counts", "2", "2", "2", "--min", "0", "0", "0", "--max", "8", "8", "8",
         "-o", "box.json"});
@@ -139,6 +159,15 @@ TEST_F(PullCommand, refuses_what_it_cannot_pick) {
   EXPECT_EQ(refused({"--pick", "0=1,1,1", "--pick-at", "4,4,4=4,4,nan"}),
             "--pick-at is '4,4,4=4,4,nan', must be x,y,z=tx,ty,tz with six finite numbers: a place "
             "on the model's surface and its goal");
+  EXPECT_EQ(refused({"--pick-at", "4,4,4=5,4,4", "--symmetry", "x:4"}),
+            "--pick-at takes the surface at (4, 4, 4) off the plane of symmetry x = 4, on which it "
+            "lies: give it a goal on the plane");
+  for (const char* indices : {"0-999999999", "3-1", "1,,2", "-1"}) {
+    EXPECT_EQ(refused({"--magnet", std::string(indices) + "=0,0,1"}),
+              "--magnet is '" + std::string(indices) +
+                  "', must be indices of the model's points, 0 to 3, such as 0,3,7-9, or a group "
+                  "or @FILE");
+  }
   write_file("model.obj", "v 4 4 4\nv 4 4 4\nv 2 2 2\nv 20 0 0\nf 1 2 3\n");
   EXPECT_EQ(refused({"--pick", "0=4,4,5", "--pick", "1=4,4,4"}),
             "--pick takes point 0 apart from point 1, which is at the same place (4, 4, 4): give "

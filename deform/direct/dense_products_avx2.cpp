@@ -1,0 +1,3 @@
+// Dense products for the instruction set that this source is compiled for.
+
+#include "deform/direct/dense_products_body.inc"
