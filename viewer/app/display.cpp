@@ -112,19 +112,23 @@ void Display::update_shapes(const Session& session) {
   selected_cell_mesh_.show(renderer_, std::move(cells.selected));
 }
 
-/// Of the first model that the chosen lattice bends.
+/// Of every model that the chosen lattice bends.
 void Display::update_influence(const Session& session) {
   PointSet dots;
-  const auto& all = session.scene().bound;
-  const auto bound = std::find_if(all.begin(), all.end(), [&](const auto& entry) {
-    return entry.first.second == session.lattice();
-  });
-  if (session.show().has_influence && bound != all.end()) {
-    const BoundModel& model = bound->second;
-    if (!heat_ || !heat_->is_for(model.binding)) {
-      heat_.emplace(*model.volume, model.binding);
+  if (!session.show().has_influence) {
+    heat_.clear();
+  }
+  for (const auto& [names, bound] : session.scene().bound) {
+    const auto& [model, lattice] = names;
+    if (!session.show().has_influence || lattice != session.lattice()) {
+      continue;
     }
-    dots = influence_marks(session, bound->first.first, *heat_);
+    auto heat = heat_.find(model);
+    if (heat == heat_.end() || !heat->second.is_for(bound.binding)) {
+      heat_.erase(model);
+      heat = heat_.emplace(model, InfluenceHeat(*bound.volume, bound.binding)).first;
+    }
+    add_influence_marks(session, model, heat->second, dots);
   }
   influence_marks_.show(renderer_, std::move(dots));
 }

@@ -11,6 +11,7 @@ constexpr glm::vec3 kSharpRed{0.90F, 0.28F, 0.24F};
 constexpr glm::vec3 kBoundaryGreen{0.30F, 0.72F, 0.38F};
 constexpr glm::vec3 kInnerBlue{0.36F, 0.55F, 0.95F};
 constexpr glm::vec3 kCornerYellow{0.98F, 0.86F, 0.25F};
+constexpr glm::vec3 kLockedRed{0.80F, 0.10F, 0.12F};
 constexpr glm::vec3 kSelected{1.00F, 0.72F, 0.16F};
 constexpr glm::vec3 kChosenPoint{1.00F, 0.50F, 0.05F};
 constexpr glm::vec3 kActive{1.00F, 0.95F, 0.70F};
@@ -89,9 +90,11 @@ PointSet controls_of(const Session& session) {
       continue;
     }
     dots.points.emplace_back(session.view().frame.to_drawing(session.shown_points()[i]));
-    dots.colors.push_back(elements.vertex_sharpness[i] > 0 ? kCornerYellow
-                          : elements.n_levels > 1          ? level_color(elements.levels[i])
-                                                           : kPoint);
+    const bool is_locked = session.locked().contains(static_cast<std::int32_t>(i));
+    dots.colors.push_back(is_locked                          ? kLockedRed
+                          : elements.vertex_sharpness[i] > 0 ? kCornerYellow
+                          : elements.n_levels > 1            ? level_color(elements.levels[i])
+                                                             : kPoint);
   }
   return dots;
 }
@@ -200,9 +203,10 @@ PointSet model_marks(const Session& session) {
   return dots;
 }
 
-PointSet influence_marks(const Session& session, const std::string& model,
-                         const InfluenceHeat& heat) {
-  PointSet dots{{}, {}, 5, 0, 0};
+void add_influence_marks(const Session& session, const std::string& model,
+                         const InfluenceHeat& heat, PointSet& dots) {
+  dots.diameter = 5;
+  dots.outline = dots.hidden_opacity = 0;
   const BentModel& bent = session.bent_models().all().at(model);
   std::vector<double> weights = session.selection().empty()
                                     ? std::vector<double>(bent.model().points().size(), 1.0)
@@ -220,7 +224,6 @@ PointSet influence_marks(const Session& session, const std::string& model,
       dots.colors.push_back(heat_color(weights[points[i]]));
     }
   }
-  return dots;
 }
 
 }  // namespace espalier::viewer

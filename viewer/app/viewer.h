@@ -24,8 +24,10 @@ class Viewer {
   void open(const std::string& path);
   /// Draws into the current frame buffer. seconds: since the last frame.
   void draw(double seconds);
-  /// As draw(), while a task is under way.
-  void draw_task(std::string_view task, double fraction);
+  /// As handle(), while a task is under way; true if the user stops it.
+  [[nodiscard]] bool stops_task(const Event& event);
+  /// As draw(), while a task is under way; true if the user stops it.
+  [[nodiscard]] bool draw_task(std::string_view task, double fraction);
   /// Asks about unsaved changes, if there are any.
   void ask_to_quit();
   [[nodiscard]] bool may_quit() const { return state_.quits; }
@@ -37,12 +39,14 @@ class Viewer {
 
  private:
   void remember(const std::string& path);
+  void make_panels(double seconds);
 
   std::unique_ptr<Renderer> renderer_;
   Session session_;
   Display display_;
   Gui gui_;
   PanelState state_;
+  bool has_shown_task_ = false;
 };
 
 }  // namespace espalier::viewer

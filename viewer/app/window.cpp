@@ -212,6 +212,10 @@ double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
+bool is_button(const Event& event) {
+  return std::holds_alternative<MousePress>(event) || std::holds_alternative<MouseRelease>(event);
+}
+
 /// The lines of a file; none if it cannot be read.
 std::vector<std::string> lines_of(const std::string& path) {
   std::ifstream file(path);
@@ -288,12 +292,10 @@ class Program {
   /// The panels see where the mouse is, and every press and release, only by drawing a frame: on a
   /// slow machine several come at once.
   void handle(const Event& event) {
-    const bool is_button =
-        std::holds_alternative<MousePress>(event) || std::holds_alternative<MouseRelease>(event);
-    if (is_button && has_mouse_news_) {
+    if (is_button(event) && has_mouse_news_) {
       draw();
     }
-    has_mouse_news_ |= is_button || std::holds_alternative<MouseMove>(event);
+    has_mouse_news_ |= is_button(event) || std::holds_alternative<MouseMove>(event);
     task_began_ = Clock::now();
     viewer_.handle(event);
   }
@@ -348,7 +350,7 @@ class Program {
     }
   }
 
-  /// Shows a task that takes longer than a moment; Esc stops it.
+  /// Shows a task that takes longer than a moment; its button and Esc stop it.
   bool on_progress(std::string_view task, double fraction) {
     constexpr double kPatience = 0.4;
     constexpr double kRedraw = 0.1;
@@ -358,13 +360,16 @@ class Program {
     }
     drawn_ = now;
     window_.poll();
-    viewer_.draw_task(task, fraction);
+    bool is_stopped = false;
+    for (const Event& event : window_.take_events()) {
+      is_stopped |= viewer_.stops_task(event);
+      if (is_button(event)) {
+        is_stopped |= viewer_.draw_task(task, fraction);
+      }
+    }
+    is_stopped |= viewer_.draw_task(task, fraction);
     window_.show();
-    const std::vector<Event> events = window_.take_events();
-    return std::none_of(events.begin(), events.end(), [](const Event& event) {
-      const auto* key = std::get_if<KeyPress>(&event);
-      return key != nullptr && key->chord == "escape";
-    });
+    return !is_stopped;
   }
 
   const WindowOptions& options_;

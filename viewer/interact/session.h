@@ -5,10 +5,12 @@
 #include <array>
 #include <functional>
 #include <glm/vec2.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "viewer/interact/bent_models.h"
@@ -32,6 +34,11 @@ enum class Mode { Lattice, Bind, Pose };
 struct Rubber {
   glm::dvec2 from{0.0};
   glm::dvec2 to{0.0};
+};
+
+/// How a model was tied to a lattice last.
+struct BindingHabit {
+  std::string freeze, outside, lock;
 };
 
 /// What a user sees and changes, without any window. Errors become messages.
@@ -67,7 +74,7 @@ class Session {
   void reveal();
   /// A lattice of one cell round all models, lattice.json beside the first one.
   void new_box();
-  /// Ties every model to the chosen lattice.
+  /// Ties every model to the chosen lattice, with the options and the lock that it had before.
   void bind();
   /// The chosen lattice back at rest.
   void rest();
@@ -110,6 +117,8 @@ class Session {
     return elements_.vertices(kind_, selection_);
   }
   [[nodiscard]] Shape shape() const { return mode_ == Mode::Pose ? Shape::Pose : Shape::Rest; }
+  /// In Pose mode the control points that the locks of all bound models keep at rest.
+  [[nodiscard]] const Selection& locked() const { return locked_; }
   /// The chosen lattice's points as they are on the screen, a transform in progress included.
   [[nodiscard]] std::span<const glm::dvec3> shown_points() const;
   /// The models as they are on the screen: bent in Pose mode only.
@@ -143,6 +152,7 @@ class Session {
   bool on_transform_key(const std::string& chord);
   [[nodiscard]] Drag drag_of(const MousePress& press) const;
   [[nodiscard]] glm::dvec3 pivot() const;
+  bool bind_model(const std::string& model);
   void begin_drag();
   void follow_transform();
   void mirror(std::vector<glm::dvec3>& to) const;
@@ -156,6 +166,8 @@ class Session {
   [[nodiscard]] std::optional<std::int32_t> picked(ElementKind kind, const glm::dvec2& at) const;
   void scene_changed();
   void refresh();
+  void find_points();
+  void note_bindings();
 
   Progress progress_;
   Journal journal_;
@@ -170,6 +182,9 @@ class Session {
   Visible visible_;
   Selection selection_;
   Selection last_selected_;  // vertices of the element that was clicked last
+  Selection locked_;
+  std::vector<glm::dvec3> points_;  // #controls: on the screen, but for a transform
+  std::map<std::pair<std::string, std::string>, BindingHabit> habits_;  // by (model, lattice)
   BentModels bent_;
   std::optional<Transform> transform_;
   std::vector<double> weights_;                      // #controls: how much each follows a transform

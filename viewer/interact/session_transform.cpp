@@ -1,5 +1,6 @@
 /// How a session moves control points.
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <string>
 #include <utility>
@@ -16,6 +17,12 @@ void Session::begin_transform(TransformKind kind) {
   }
   if (mode_ == Mode::Bind) {
     say("Bind mode moves nothing: press Tab for Pose mode.");
+    return;
+  }
+  const Selection vertices = selected_vertices();
+  if (std::ranges::includes(locked_, vertices)) {
+    say("A lock keeps these control points at rest, or the model would tear where it leaves the "
+        "lattice; the list below the model's name takes it away.");
     return;
   }
   cancel_transform();
@@ -45,9 +52,11 @@ void Session::begin_drag() {
   if (transform_->kind == TransformKind::Extrude) {
     return;
   }
-  const auto points = points_of(scene(), lattice_, shape());
-  weights_ = soft_weights(points, selected_vertices(), handling_.radius());
-  moved_.assign(points.begin(), points.end());
+  weights_ = soft_weights(points_, selected_vertices(), handling_.radius());
+  for (const std::int32_t control : locked_) {
+    weights_[static_cast<std::size_t>(control)] = 0;
+  }
+  moved_ = points_;
   fraction_ = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const auto at = static_cast<std::size_t>(axis);
@@ -69,8 +78,7 @@ void Session::follow_transform() {
   if (!transform_ || transform_->kind == TransformKind::Extrude) {
     return;
   }
-  const auto points = points_of(scene(), lattice_, shape());
-  moved_ = transform_->apply(view_, points, weights_);
+  moved_ = transform_->apply(view_, points_, weights_);
   mirror(moved_);
   if (!bent_.is_dragging()) {
     return;
@@ -78,17 +86,20 @@ void Session::follow_transform() {
   fraction_ = bent_.follow(transform_->motion(view_), moved_, handling_.stops_at_folds);
   if (fraction_ < 1) {
     for (std::size_t i = 0; i < moved_.size(); ++i) {
-      moved_[i] = points[i] + fraction_ * (moved_[i] - points[i]);
+      moved_[i] = points_[i] + fraction_ * (moved_[i] - points_[i]);
     }
   }
 }
 
 void Session::mirror(std::vector<glm::dvec3>& to) const {
-  const auto points = points_of(scene(), lattice_, shape());
   for (int axis = 0; axis < 3; ++axis) {
     if (const auto& images = images_.at(static_cast<std::size_t>(axis)); !images.empty()) {
-      mirror_motion(points, images, axis, to);
+      mirror_motion(points_, images, axis, to);
     }
+  }
+  for (const std::int32_t control : locked_) {
+    const auto i = static_cast<std::size_t>(control);
+    to[i] = points_[i];
   }
 }
 
@@ -99,11 +110,8 @@ void Session::cancel_transform() {
 }
 
 std::span<const glm::dvec3> Session::shown_points() const {
-  if (lattice_.empty()) {
-    return {};
-  }
   const bool is_moving = transform_ && transform_->kind != TransformKind::Extrude;
-  return is_moving ? std::span<const glm::dvec3>(moved_) : points_of(scene(), lattice_, shape());
+  return is_moving ? moved_ : points_;
 }
 
 std::optional<Gizmo> Session::gizmo() const {
@@ -132,7 +140,7 @@ void Session::finish_transform() {
     finish_extrusion();
     return;
   }
-  const auto before = points_of(scene(), lattice_, shape());
+  const std::vector<glm::dvec3>& before = points_;
   const std::vector<glm::dvec3> after = moved_;
   std::vector<std::int64_t> indices;
   std::vector<double> to;

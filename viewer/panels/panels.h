@@ -52,7 +52,7 @@ void draw_form_panel(const Session& session, PanelState& state, std::vector<Acti
 /// What is shown of the lattice, and how it is cut. top: pixels from above.
 void draw_show_panel(const Session& session, float top, std::vector<Action>& actions);
 void draw_quit_question(PanelState& state, std::vector<Action>& actions);
-/// While a task runs: how far it is, and how to stop it.
-void draw_progress(std::string_view task, double fraction);
+/// While a task runs: how far it is; true if it is to stop.
+[[nodiscard]] bool draw_progress(std::string_view task, double fraction);
 
 }  // namespace espalier::viewer
