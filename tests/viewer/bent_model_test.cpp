@@ -104,6 +104,23 @@ TEST_F(BentModelTest, dragging_moves_the_model_as_the_operation_does) {
   expect_drag_is_operation({"o", "shift+y", "g", "y", "0", ".", "1"});
 }
 
+TEST_F(BentModelTest,
+       parts_that_turn_about_their_own_middles_move_the_model_as_the_operation_does) {
+  select_x(0);
+  const Selection first = session_.selection();
+  Handling handling = session_.handling();
+  handling.pivot = Pivot::Individual;
+  session_.set_handling(handling);
+  press({"ctrl+i"});  // the other ends of the first cells come along: all but x = 0
+  const std::vector<glm::vec3> before = positions();
+  expect_drag_is_operation({"r", "x", "2", "0"});
+  expect_drag_is_operation({"s", "1", ".", "2"});
+  EXPECT_GE(farthest(before, positions()), 0.2);
+  press({"o"});
+  expect_drag_is_operation({"r", "x", "1", "0"});
+  expect_drag_is_operation({"s", "0", ".", "9"});
+}
+
 TEST_F(BentModelTest, positions_after_an_operation_are_those_of_the_saved_model) {
   select_x(4);
   press({"g", "z", "0", ".", "7", "enter"});

@@ -84,5 +84,39 @@ TEST_F(DisplayTest, bind_mode_shows_what_the_lattice_holds) {
   }
 }
 
+TEST_F(DisplayTest, influence_is_shown_of_all_models_of_the_lattice) {
+  const std::string path = ::testing::TempDir() + "/espalier_display_other.obj";
+  write_file(path, "v 3.2 .2 .5\nv 3.4 .2 .5\nv 3.2 .4 .5\nf 1 2 3\n");
+  session_.open(path);
+  session_.bind();
+  Show show = session_.show();
+  show.has_influence = true;
+  session_.set_show(show);
+  display_.update(session_);
+  std::size_t n_dots = 0;
+  for (const auto& [id, content] : renderer_.items()) {
+    const auto* dots = std::get_if<PointSet>(&content);
+    n_dots += dots != nullptr && dots->diameter == 5 ? dots->points.size() : 0;
+  }
+  EXPECT_EQ(n_dots, 9u);
+}
+
+TEST_F(DisplayTest, the_cursor_is_shown_where_it_was_placed) {
+  const std::size_t before = renderer_.items().size();
+  session_.set_cursor(glm::dvec3(1, 2, 3));
+  display_.update(session_);
+  ASSERT_EQ(renderer_.items().size(), before + 1);
+  const auto& lines = std::get<LineSet>(renderer_.items().rbegin()->second);
+  glm::vec3 middle(0);
+  for (const glm::vec3& point : lines.points) {
+    middle += point / static_cast<float>(lines.points.size());
+  }
+  const glm::vec3 expected(session_.view().frame.to_drawing({1, 2, 3}));
+  EXPECT_LE(glm::distance(middle, expected), 1e-5F);
+  session_.set_cursor(std::nullopt);
+  display_.update(session_);
+  EXPECT_EQ(renderer_.items().size(), before);
+}
+
 }  // namespace
 }  // namespace espalier::viewer

@@ -78,6 +78,7 @@ void Display::update_lattice(const Session& session) {
   controls_.show(renderer_, std::move(marks.controls));
   ghost_.show(renderer_, std::move(marks.ghost));
   gizmo_.show(renderer_, std::move(marks.gizmo));
+  cursor_.show(renderer_, std::move(marks.cursor));
   model_marks_.show(renderer_, model_marks(session));
 }
 

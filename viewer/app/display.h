@@ -39,7 +39,7 @@ class Display {
 
   Renderer& renderer_;
   std::map<std::string, ShownModel> models_;
-  ShownMarks<LineSet> cage_, rest_, ghost_, gizmo_, refined_lines_;
+  ShownMarks<LineSet> cage_, rest_, ghost_, gizmo_, cursor_, refined_lines_;
   ShownMarks<PointSet> chosen_, controls_, model_marks_, influence_marks_;
   std::map<std::string, InfluenceHeat> heat_;  // by model that the chosen lattice bends
   ShownMesh surface_mesh_, cell_mesh_, selected_cell_mesh_;

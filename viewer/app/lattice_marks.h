@@ -19,6 +19,7 @@ struct LatticeMarks {
   LineSet rest;       ///< in Pose mode, faint: where the lattice was
   LineSet ghost;      ///< of cells to come
   LineSet gizmo;
+  LineSet cursor;
 };
 
 [[nodiscard]] LatticeMarks lattice_marks(const Session& session);

@@ -29,6 +29,9 @@ void Viewer::handle(const Event& event) {
     session_.end_preview();
     return;
   }
+  if (key != nullptr && !has_text_field && handle_menu(chord)) {
+    return;
+  }
   if (chord == "ctrl+q") {
     ask_to_quit();
     return;
@@ -40,6 +43,22 @@ void Viewer::handle(const Event& event) {
   } else {
     session_.handle(event);
   }
+}
+
+/// A digit takes an entry of the menu that is open, any other key closes it.
+bool Viewer::handle_menu(const std::string& chord) {
+  if (state_.menu == nullptr) {
+    state_.menu = session_.transform() ? nullptr : menu_on(chord);
+    return state_.menu != nullptr;
+  }
+  const Menu& menu = *std::exchange(state_.menu, nullptr);
+  const std::string digit = chord.starts_with("kp") ? chord.substr(2) : chord;
+  for (std::size_t i = 0; i < menu.entries.size(); ++i) {
+    if (digit == std::to_string(i + 1)) {
+      menu.entries[i].run(session_);
+    }
+  }
+  return true;
 }
 
 void Viewer::open(const std::string& path) {

@@ -91,14 +91,16 @@ bool Session::run_line(const std::string& line) {
 }
 
 bool Session::recover(const std::string& journal_text) {
+  bool is_whole = true;
   try {
     replay(journal_text, journal_, progress_);
   } catch (const Error& error) {
     say(error.what());
+    is_whole = false;
   }
   scene_changed();
   frame_all();
-  return messages_.empty();
+  return is_whole;
 }
 
 /// The chosen lattice may be gone or another one.

@@ -3,7 +3,6 @@
 /// A user at work: mouse and keys in, operations of the scene out.
 
 #include <array>
-#include <functional>
 #include <glm/vec2.hpp>
 #include <map>
 #include <memory>
@@ -54,7 +53,8 @@ class Session {
   bool open(const std::string& path);
   /// Does the operation that a line of a journal holds.
   bool run_line(const std::string& line);
-  /// Replays a journal's text on top of what is there.
+  /// Replays a journal's text on top of what is there, as far as that can be done; false if not to
+  /// its end.
   bool recover(const std::string& journal_text);
 
   // What a panel's buttons and keys do.
@@ -72,6 +72,13 @@ class Session {
   /// Hides what is selected; reveal() shows all that was hidden so.
   void hide_selected();
   void reveal();
+  /// The cursor goes to the model under a pixel, or beside it as far away as it is.
+  void place_cursor(const glm::dvec2& at);
+  void set_cursor(const std::optional<glm::dvec3>& place) { cursor_ = place; }
+  void cursor_to_selected();
+  void cursor_to_active();
+  /// Moves what is selected so that its middle is at the cursor.
+  void selection_to_cursor();
   /// A lattice of one cell round all models, lattice.json beside the first one.
   void new_box();
   /// Ties every model to the chosen lattice, with the options and the lock that it had before.
@@ -113,6 +120,7 @@ class Session {
   [[nodiscard]] const LatticeElements& elements() const { return elements_; }
   [[nodiscard]] const Visible& visible() const { return visible_; }  ///< of the elements
   [[nodiscard]] const Selection& selection() const { return selection_; }
+  [[nodiscard]] const std::optional<glm::dvec3>& cursor() const { return cursor_; }
   [[nodiscard]] Selection selected_vertices() const {
     return elements_.vertices(kind_, selection_);
   }
@@ -152,6 +160,8 @@ class Session {
   bool on_transform_key(const std::string& chord);
   [[nodiscard]] Drag drag_of(const MousePress& press) const;
   [[nodiscard]] glm::dvec3 pivot() const;
+  [[nodiscard]] bool may_move();
+  [[nodiscard]] std::string shape_name() const { return mode_ == Mode::Pose ? "pose" : "rest"; }
   bool bind_model(const std::string& model);
   void begin_drag();
   void follow_transform();
@@ -182,6 +192,7 @@ class Session {
   Visible visible_;
   Selection selection_;
   Selection last_selected_;  // vertices of the element that was clicked last
+  std::optional<glm::dvec3> cursor_;
   Selection locked_;
   std::vector<glm::dvec3> points_;  // #controls: on the screen, but for a transform
   std::map<std::pair<std::string, std::string>, BindingHabit> habits_;  // by (model, lattice)
@@ -198,15 +209,5 @@ class Session {
   Preview preview_;
   std::vector<std::string> messages_;
 };
-
-/// A thing a key, the help and the command palette know.
-struct Command {
-  std::string name;
-  std::string keys;  ///< chords, separated by blanks; empty: none
-  std::function<void(Session&)> run;
-};
-
-/// All commands of a session, in the order in which help lists them.
-[[nodiscard]] const std::vector<Command>& commands(Preset preset = Preset::Blender);
 
 }  // namespace espalier::viewer

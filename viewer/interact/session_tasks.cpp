@@ -132,6 +132,7 @@ FormContext Session::form_context() const {
   context.kind = kind_;
   context.selection = selection_;
   context.elements = &elements_;
+  context.cursor = cursor_;
   return context;
 }
 

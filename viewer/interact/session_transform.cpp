@@ -5,46 +5,60 @@
 #include <string>
 #include <utility>
 
+#include "lattice/core/box.h"
+#include "viewer/interact/pivot.h"
 #include "viewer/interact/session.h"
 #include "viewer/interact/symmetry.h"
 
 namespace espalier::viewer {
 
-void Session::begin_transform(TransformKind kind) {
+bool Session::may_move() {
   if (lattice_.empty() || selection_.empty()) {
     say("Select control points first: click them, or press a for all.");
-    return;
-  }
-  if (mode_ == Mode::Bind) {
+  } else if (mode_ == Mode::Bind) {
     say("Bind mode moves nothing: press Tab for Pose mode.");
-    return;
-  }
-  const Selection vertices = selected_vertices();
-  if (std::ranges::includes(locked_, vertices)) {
+  } else if (std::ranges::includes(locked_, selected_vertices())) {
     say("A lock keeps these control points at rest, or the model would tear where it leaves the "
         "lattice; the list below the model's name takes it away.");
+  } else {
+    return true;
+  }
+  return false;
+}
+
+void Session::begin_transform(TransformKind kind) {
+  if (!may_move()) {
     return;
   }
   cancel_transform();
   if (kind != TransformKind::Extrude) {
     handling_.gizmo = kind;
   }
-  transform_ = Transform{kind, {}, {}, mouse_, mouse_, pivot(), glm::dvec3(0.0), false};
+  transform_ = Transform{kind, {}, {}, mouse_, mouse_, pivot(), glm::dvec3(0.0), false, {}};
   begin_drag();
 }
 
+/// What the handles stand at; where every part has its own, the mean of all.
 glm::dvec3 Session::pivot() const {
-  if (handling_.pivot == Pivot::Origin) {
-    return glm::dvec3(0.0);
-  }
-  const bool is_last = handling_.pivot == Pivot::Last && !last_selected_.empty();
-  const Selection vertices = is_last ? last_selected_ : selected_vertices();
   const std::span<const glm::dvec3> points = shown_points();
-  glm::dvec3 middle(0.0);
-  for (const std::int32_t vertex : vertices) {
-    middle += points[static_cast<std::size_t>(vertex)] / double(vertices.size());
+  const Selection vertices = selected_vertices();
+  switch (handling_.pivot) {
+    case Pivot::Origin:
+      return glm::dvec3(0.0);
+    case Pivot::Active:
+      return middle_of(points, last_selected_.empty() ? vertices : last_selected_);
+    case Pivot::Cursor:
+      return cursor_ ? *cursor_ : middle_of(points, vertices);
+    case Pivot::Box: {
+      Box box;
+      for (const std::int32_t vertex : vertices) {
+        box.add(points[static_cast<std::size_t>(vertex)]);
+      }
+      return box.center();
+    }
+    default:
+      return middle_of(points, vertices);
   }
-  return middle;
 }
 
 /// From mouse-down: also where the radius of a soft selection changed since.
@@ -53,6 +67,9 @@ void Session::begin_drag() {
     return;
   }
   weights_ = soft_weights(points_, selected_vertices(), handling_.radius());
+  transform_->pivots = handling_.pivot == Pivot::Individual
+                           ? island_pivots(points_, islands(elements_, kind_, selection_))
+                           : std::vector<glm::dvec3>();
   for (const std::int32_t control : locked_) {
     weights_[static_cast<std::size_t>(control)] = 0;
   }
@@ -69,8 +86,15 @@ void Session::begin_drag() {
     // A soft turn gives every point an angle of its own.
     const bool is_fast = !handling_.is_mirrored() &&
                          !(transform_->kind == TransformKind::Turn && handling_.radius() > 0);
-    bent_.begin_drag(
-        {lattice_, moved_, {0, weights_, moved_, transform_->pivot, is_turned}, is_fast});
+    // A point with a pivot of its own moves as one that stands so to the common one.
+    std::vector<glm::dvec3> controls = points_;
+    for (std::size_t i = 0; i < transform_->pivots.size(); ++i) {
+      controls[i] += transform_->pivot - transform_->pivots[i];
+    }
+    bent_.begin_drag({lattice_,
+                      points_,
+                      {0, weights_, std::move(controls), transform_->pivot, is_turned},
+                      is_fast});
   }
 }
 
@@ -153,11 +177,10 @@ void Session::finish_transform() {
   if (indices.empty()) {
     cancel_transform();
   } else {
-    apply({"move points",
-           Arguments({{"lattice", lattice_},
-                      {"points", std::move(indices)},
-                      {"to", std::move(to)},
-                      {"shape", std::string(shape() == Shape::Pose ? "pose" : "rest")}})});
+    apply({"move points", Arguments({{"lattice", lattice_},
+                                     {"points", std::move(indices)},
+                                     {"to", std::move(to)},
+                                     {"shape", shape_name()}})});
   }
 }
 
