@@ -55,7 +55,7 @@ TEST_F(AutosaveTest, what_a_crash_left_is_found_with_its_folder_and_stays_until_
     const std::vector<LeftJournal> left = next.take_leftovers();
     ASSERT_EQ(left.size(), 1u);
     EXPECT_EQ(left[0].folder, std::filesystem::current_path().string());
-    EXPECT_NE(left[0].title().find(" 1 steps "), std::string::npos) << left[0].title();
+    EXPECT_NE(left[0].title().find(" 1 step "), std::string::npos) << left[0].title();
     Journal replayed;
     replay(left[0].text, replayed);
     EXPECT_EQ(replayed.text(), journal_.text());

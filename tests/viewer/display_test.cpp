@@ -101,6 +101,56 @@ TEST_F(DisplayTest, influence_is_shown_of_all_models_of_the_lattice) {
   EXPECT_EQ(n_dots, 9u);
 }
 
+TEST_F(DisplayTest, lattices_of_every_type_are_shown_refined_where_their_points_are_dragged) {
+  struct Case {
+    const char* line;
+    std::size_t n_lines;
+  };
+  // Lines of grids: of n control points along each axis 3 n² (n − 1).
+  for (const Case& each :
+       {Case{"new bezier output=a counts=3,3,3", 3 * 16 * 3},  // halved: 4 along each axis
+        Case{"new bspline output=a counts=4,4,4 ends=open", 3 * 25 * 4},
+        Case{"new thb output=a counts=4,4,4", 3 * 25 * 4}}) {
+    session_ = Session();
+    ASSERT_TRUE(session_.run_line(each.line)) << session_.messages().back();
+    session_.frame_all();
+    session_.set_mode(Mode::Pose);
+    Show show;
+    show.has_cage = false;
+    show.refined_levels = 1;
+    session_.set_show(show);
+    session_.select_all(true);
+    Handling handling = session_.handling();
+    handling.has_gizmo = false;
+    session_.set_handling(handling);
+    const auto lines = [&] {
+      display_.update(session_);
+      std::vector<LineSet> found;
+      for (const auto& [id, content] : renderer_.items()) {
+        if (const auto* set = std::get_if<LineSet>(&content)) {
+          found.push_back(*set);
+        }
+      }
+      return found;
+    };
+    const std::vector<LineSet> before = lines();
+    ASSERT_EQ(before.size(), 1u) << each.line;
+    EXPECT_EQ(before[0].points.size(), 2 * each.n_lines) << each.line;
+    const std::size_t n_uploaded = renderer_.n_uploaded();
+    display_.update(session_);
+    EXPECT_EQ(renderer_.n_uploaded(), n_uploaded);
+    for (const char* key : {"g", "x", "2"}) {
+      session_.handle(KeyPress{key});
+    }
+    const std::vector<LineSet> after = lines();
+    const auto scale = static_cast<float>(session_.view().frame.scale);
+    for (std::size_t i = 0; i < before[0].points.size(); ++i) {
+      const glm::vec3 moved = after[0].points[i] - before[0].points[i];
+      EXPECT_LE(glm::distance(moved, glm::vec3(2 * scale, 0, 0)), 1e-5F);
+    }
+  }
+}
+
 TEST_F(DisplayTest, the_cursor_is_shown_where_it_was_placed) {
   const std::size_t before = renderer_.items().size();
   session_.set_cursor(glm::dvec3(1, 2, 3));

@@ -54,8 +54,9 @@ LeftJournal read_journal(const std::string& path, std::shared_ptr<FileLock> lock
 }  // namespace
 
 std::string LeftJournal::title() const {
-  const auto n_lines = std::count(text.begin(), text.end(), '\n');
-  return when + "   " + std::to_string(n_lines - (folder.empty() ? 0 : 1)) + " steps   " + folder;
+  const auto n_steps = std::count(text.begin(), text.end(), '\n') - (folder.empty() ? 0 : 1);
+  return when + "   " + std::to_string(n_steps) + (n_steps == 1 ? " step   " : " steps   ") +
+         folder;
 }
 
 void LeftJournal::remove() const {

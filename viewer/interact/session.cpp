@@ -60,7 +60,7 @@ void Session::handle(const Event& event) {
 bool Session::apply(const OperationCall& call) {
   transform_.reset();
   fraction_ = 1;
-  end_preview();
+  const Preview before = std::exchange(preview_, Preview());
   try {
     journal_.apply(call, progress_);
     scene_changed();
@@ -68,6 +68,9 @@ bool Session::apply(const OperationCall& call) {
   } catch (const Error& error) {
     say(call.operation + ": " + error.what());
     bent_.cancel_drag();
+    if (before.posed) {
+      bend_models();
+    }
     return false;
   }
 }
@@ -143,7 +146,26 @@ void Session::refresh() {
                  ? Visible()
                  : visible_elements(elements_, points_of(scene(), lattice_, Shape::Rest), show_);
   find_points();
-  bent_.update(scene(), view_.frame, mode_ == Mode::Pose);
+  bend_models();
+}
+
+void Session::bend_models() {
+  bent_.update(preview_.posed ? *preview_.posed : scene(), view_.frame, mode_ == Mode::Pose);
+}
+
+/// Bound models follow a pose that is only looked at.
+void Session::preview(const OperationCall& call, bool waits) {
+  cancel_transform();
+  preview_ = preview_of(call, scene(), waits ? progress_ : impatience());
+  bend_models();
+}
+
+void Session::end_preview() {
+  const bool is_posed = preview_.posed.has_value();
+  preview_ = Preview();
+  if (is_posed) {
+    bend_models();
+  }
 }
 
 /// What every bound model takes as unmoved is shown where it counts: at rest.

@@ -90,10 +90,8 @@ class Session {
   /// The greatest of the selected edges or vertices.
   [[nodiscard]] double sharpness() const;
   /// What an operation would make is shown until it is done or ended. waits: however long it takes.
-  void preview(const OperationCall& call, bool waits = false) {
-    preview_ = preview_of(call, scene(), waits ? progress_ : impatience());
-  }
-  void end_preview() { preview_ = Preview(); }
+  void preview(const OperationCall& call, bool waits = false);
+  void end_preview();
   /// Does what a form says, and chooses the lattice that it makes.
   void run_form(const OperationCall& call);
   /// Writes every bound model, bent, and the chosen lattice with its pose beside their files, as
@@ -177,6 +175,7 @@ class Session {
   void scene_changed();
   void refresh();
   void find_points();
+  void bend_models();
   void note_bindings();
 
   Progress progress_;

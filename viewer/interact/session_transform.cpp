@@ -31,6 +31,7 @@ void Session::begin_transform(TransformKind kind) {
     return;
   }
   cancel_transform();
+  end_preview();
   if (kind != TransformKind::Extrude) {
     handling_.gizmo = kind;
   }
