@@ -64,7 +64,7 @@ class ViewerTest : public ::testing::Test {
 TEST_F(ViewerTest, a_task_that_a_button_began_shows_how_far_it_is) {
   viewer_.session().set_mode(Mode::Bind);
   draw();
-  for (double y = 100; y < 260 && viewer_.session().scene().bound.empty(); y += 10) {
+  for (double y = 136; y < 220 && viewer_.session().scene().bound.empty(); y += 12) {
     click({120, y});
   }
   EXPECT_FALSE(viewer_.session().scene().bound.empty());

@@ -30,7 +30,7 @@ void Display::add_model(const Session& session, const std::string& name, const B
   mesh.normals.assign(bent.normals().begin(), bent.normals().end());
   mesh.indices = bent.drawing().triangles();
   mesh.places = bent.drawing().vertex_places();
-  mesh.texture = bent.texture();
+  mesh.textures = bent.textures();
   mesh.unit = static_cast<float>(session.view().frame.scale);
   models_.emplace(name, ShownModel{bent.model(), session.view().frame, renderer_.add(mesh),
                                    bent.revision(), bent.arrangement(), false});
