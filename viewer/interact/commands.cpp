@@ -157,13 +157,13 @@ std::vector<Command> view_commands(Preset preset) {
       {"See all", preset == Preset::Blender ? "home" : "home a", &Session::frame_all},
       {"See what is selected", preset == Preset::Blender ? "kp." : "kp. f",
        &Session::frame_selected},
-      {"Look from the front", "kp1", look("front")},
-      {"Look from the back", "ctrl+kp1", look("back")},
-      {"Look from the right", "kp3", look("right")},
-      {"Look from the left", "ctrl+kp3", look("left")},
-      {"Look from above", "kp7", look("top")},
-      {"Look from below", "ctrl+kp7", look("bottom")},
-      {"With or without perspective", "kp5", &Session::toggle_projection}};
+      {"Look from the front", "kp1 alt+1", look("front")},
+      {"Look from the back", "ctrl+kp1 ctrl+alt+1", look("back")},
+      {"Look from the right", "kp3 alt+3", look("right")},
+      {"Look from the left", "ctrl+kp3 ctrl+alt+3", look("left")},
+      {"Look from above", "kp7 alt+7", look("top")},
+      {"Look from below", "ctrl+kp7 ctrl+alt+7", look("bottom")},
+      {"With or without perspective", "kp5 alt+5", &Session::toggle_projection}};
 }
 
 std::vector<Command> all_commands(Preset preset) {
