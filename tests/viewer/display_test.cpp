@@ -151,6 +151,34 @@ TEST_F(DisplayTest, lattices_of_every_type_are_shown_refined_where_their_points_
   }
 }
 
+TEST_F(DisplayTest, levels_of_a_hierarchy_are_shown_refined_or_not) {
+  session_ = Session();
+  ASSERT_TRUE(session_.run_line("new thb output=a counts=5,5,5"));
+  ASSERT_TRUE(session_.run_line("refine input=a box=0,0,0,0.5,1,1 output=a"));
+  session_.frame_all();
+  const auto n_points = [&](const std::set<std::int32_t>& hidden) {
+    Show show;
+    show.has_cage = false;
+    show.refined_levels = 1;
+    show.hidden_levels = hidden;
+    session_.set_show(show);
+    display_.update(session_);
+    std::size_t n = 0;
+    for (const auto& [id, content] : renderer_.items()) {
+      if (const auto* lines = std::get_if<LineSet>(&content)) {
+        n += lines->points.size();
+      }
+    }
+    return n;
+  };
+  const std::size_t coarse = n_points({1});
+  const std::size_t fine = n_points({0});
+  EXPECT_GT(coarse, 0u);
+  EXPECT_GT(fine, coarse);
+  EXPECT_EQ(n_points({}), coarse + fine);
+  EXPECT_EQ(n_points({0, 1}), 0u);
+}
+
 TEST_F(DisplayTest, the_cursor_is_shown_where_it_was_placed) {
   const std::size_t before = renderer_.items().size();
   session_.set_cursor(glm::dvec3(1, 2, 3));

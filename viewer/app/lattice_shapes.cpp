@@ -1,6 +1,7 @@
 #include "viewer/app/lattice_shapes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "deform/evaluate/volume_boundary.h"
 #include "deform/scene/operations.h"
@@ -116,16 +117,24 @@ void RefinedNet::refine_at(std::span<const glm::dvec3> controls) {
 const LineSet& RefinedNet::at(const Session& session) {
   const std::span<const glm::dvec3> controls = session.shown_points();
   const DrawingFrame& frame = session.view().frame;
-  if (std::ranges::equal(controls, controls_) && frame == frame_) {
+  const std::set<std::int32_t>& hidden = session.show().hidden_levels;
+  const bool is_still = std::ranges::equal(controls, controls_);
+  if (is_still && frame == frame_ && hidden == hidden_levels_) {
     return lines_;
   }
-  refine_at(controls);
-  controls_.assign(controls.begin(), controls.end());
+  if (!is_still) {
+    refine_at(controls);
+    controls_.assign(controls.begin(), controls.end());
+  }
   frame_ = frame;
+  hidden_levels_ = hidden;
   lines_ = LineSet();
-  lines_.width = 1.2F;
+  lines_.width = std::clamp(60 / std::sqrt(static_cast<float>(edges_.size() + 1)), 0.5F, 1.2F);
   lines_.hidden_opacity = 0.15F;
   for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
+    if (!edge_levels_.empty() && hidden.contains(std::max(0, edge_levels_[edge] - levels_))) {
+      continue;
+    }
     for (const std::int32_t end : edges_[edge]) {
       lines_.points.emplace_back(frame.to_drawing(points_[static_cast<std::size_t>(end)]));
     }

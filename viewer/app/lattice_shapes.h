@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -32,8 +33,8 @@ class FollowingSurface {
   BoundarySurface surface_;
 };
 
-/// The lines of a lattice refined as often as the session shows it: of a hierarchy those of all
-/// levels, in their colours.
+/// The lines of a lattice refined as often as the session shows it: of a hierarchy those of the
+/// levels that are shown, each as much finer, in their colours.
 class RefinedNet {
  public:
   RefinedNet(const Lattice& lattice, int levels);
@@ -54,6 +55,7 @@ class RefinedNet {
   // What the lines are for.
   std::vector<glm::dvec3> controls_;
   DrawingFrame frame_;
+  std::set<std::int32_t> hidden_levels_;
   LineSet lines_;
 };
 

@@ -155,7 +155,7 @@ std::vector<Command> view_commands(Preset preset) {
       {"Show the volume's boundary, or not", "shift+v",
        showing([](Show& show) { show.has_surface = !show.has_surface; })},
       {"See all", preset == Preset::Blender ? "home" : "home a", &Session::frame_all},
-      {"See what is selected", preset == Preset::Blender ? "kp." : "kp. f",
+      {"See what is selected", preset == Preset::Blender ? "kp. shift+home" : "kp. shift+home f",
        &Session::frame_selected},
       {"Look from the front", "kp1 alt+1", look("front")},
       {"Look from the back", "ctrl+kp1 ctrl+alt+1", look("back")},

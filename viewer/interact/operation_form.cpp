@@ -122,11 +122,12 @@ bool is_place_type(const Parameter& parameter) {
   return parameter.type == ParameterType::Numbers && parameter.count == 3;
 }
 
+/// To seven digits: more cannot be placed by hand.
 std::string text_of_place(const glm::dvec3& place) {
   std::string text;
   for (int axis = 0; axis < 3; ++axis) {
     text += axis > 0 ? "," : "";
-    append_number(text, place[axis]);
+    append_number(text, static_cast<float>(place[axis]));
   }
   return text;
 }
