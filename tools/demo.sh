@@ -58,12 +58,15 @@ picture block-after bent.obj "$data/barbell_posed.json" --view 20,35
 
 echo
 echo "== The leg: a session of the viewer extrudes cells down it and bends the knee"
-leg() {
+viewer() {
   echo "\$ espalier-viewer $*"
   "$top/build/bin/espalier-viewer" "$@"
 }
-leg figure.obj --script "$data/leg_session.txt" --size 1000x640 --screenshot viewer.png
-[ "$pictures" = no ] || cp viewer.png "$top/tools/pictures/viewer.png"
+for name in box grown bound bent; do
+  sed "/^# picture $name\$/q" "$data/leg_session.txt" >leg_session.txt
+  viewer figure.obj --script leg_session.txt --size 1000x640 --screenshot "viewer-$name.png"
+  [ "$pictures" = no ] || cp "viewer-$name.png" "$top/tools/pictures/"
+done
 
 echo
 echo "Models, lattices and pictures are in build/demo/:"

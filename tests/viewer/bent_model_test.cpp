@@ -104,6 +104,23 @@ TEST_F(BentModelTest, dragging_moves_the_model_as_the_operation_does) {
   expect_drag_is_operation({"o", "shift+y", "g", "y", "0", ".", "1"});
 }
 
+TEST_F(BentModelTest,
+       parts_that_turn_about_their_own_middles_move_the_model_as_the_operation_does) {
+  select_x(0);
+  const Selection first = session_.selection();
+  Handling handling = session_.handling();
+  handling.pivot = Pivot::Individual;
+  session_.set_handling(handling);
+  press({"ctrl+i"});  // the other ends of the first cells come along: all but x = 0
+  const std::vector<glm::vec3> before = positions();
+  expect_drag_is_operation({"r", "x", "2", "0"});
+  expect_drag_is_operation({"s", "1", ".", "2"});
+  EXPECT_GE(farthest(before, positions()), 0.2);
+  press({"o"});
+  expect_drag_is_operation({"r", "x", "1", "0"});
+  expect_drag_is_operation({"s", "0", ".", "9"});
+}
+
 TEST_F(BentModelTest, positions_after_an_operation_are_those_of_the_saved_model) {
   select_x(4);
   press({"g", "z", "0", ".", "7", "enter"});
@@ -117,6 +134,38 @@ TEST_F(BentModelTest, positions_after_an_operation_are_those_of_the_saved_model)
                             glm::vec3(saved[points[i]] - session_.view().frame.origin)),
               1e-6);
   }
+}
+
+TEST_F(BentModelTest, a_preview_of_a_pose_bends_the_model_as_the_operation_does_and_goes_back) {
+  const std::vector<glm::vec3> before = positions();
+  const std::string call = "pose twist lattice=bar from=0,1,1 to=4,1,1 angle=40";
+  session_.preview(parse_call(call + " output=bar"));
+  ASSERT_TRUE(session_.shown_preview().error.empty()) << session_.shown_preview().error;
+  const std::vector<glm::vec3> previewed = positions();
+  EXPECT_GE(farthest(before, previewed), 0.3);
+  EXPECT_TRUE(std::ranges::equal(lattice_in(session_.scene(), "bar").rest_points(),
+                                 lattice_in(session_.scene(), "bar").posed_points()));
+  session_.end_preview();
+  EXPECT_EQ(positions(), before);
+  session_.preview(parse_call(call + " output=bar"));
+  select_x(4);
+  press({"g", "x", "0", "escape"});  // hands go on from where the lattice is
+  EXPECT_EQ(positions(), before);
+  session_.preview(parse_call(call + " output=bar"));
+  session_.run_form(parse_call(call + " output=bar"));
+  EXPECT_EQ(positions(), previewed);
+}
+
+TEST_F(BentModelTest, a_preview_of_another_lattice_or_of_nothing_bends_no_model) {
+  const std::vector<glm::vec3> before = positions();
+  for (const char* line :
+       {"pose twist lattice=bar from=0,1,1 to=4,1,1 angle=40 output=other", "new box output=bar2",
+        "pose twist lattice=bar from=0,1,1 to=0,1,1 "
+        "angle=40 output=bar"}) {
+    session_.preview(parse_call(line));
+    EXPECT_EQ(positions(), before) << line;
+  }
+  EXPECT_FALSE(session_.shown_preview().error.empty());
 }
 
 TEST_F(BentModelTest, escape_brings_the_model_back_bit_for_bit) {

@@ -84,5 +84,117 @@ TEST_F(DisplayTest, bind_mode_shows_what_the_lattice_holds) {
   }
 }
 
+TEST_F(DisplayTest, influence_is_shown_of_all_models_of_the_lattice) {
+  const std::string path = ::testing::TempDir() + "/espalier_display_other.obj";
+  write_file(path, "v 3.2 .2 .5\nv 3.4 .2 .5\nv 3.2 .4 .5\nf 1 2 3\n");
+  session_.open(path);
+  session_.bind();
+  Show show = session_.show();
+  show.has_influence = true;
+  session_.set_show(show);
+  display_.update(session_);
+  std::size_t n_dots = 0;
+  for (const auto& [id, content] : renderer_.items()) {
+    const auto* dots = std::get_if<PointSet>(&content);
+    n_dots += dots != nullptr && dots->diameter == 5 ? dots->points.size() : 0;
+  }
+  EXPECT_EQ(n_dots, 9u);
+}
+
+TEST_F(DisplayTest, lattices_of_every_type_are_shown_refined_where_their_points_are_dragged) {
+  struct Case {
+    const char* line;
+    std::size_t n_lines;
+  };
+  // Lines of grids: of n control points along each axis 3 n² (n − 1).
+  for (const Case& each :
+       {Case{"new bezier output=a counts=3,3,3", 3 * 16 * 3},  // halved: 4 along each axis
+        Case{"new bspline output=a counts=4,4,4 ends=open", 3 * 25 * 4},
+        Case{"new thb output=a counts=4,4,4", 3 * 25 * 4}}) {
+    session_ = Session();
+    ASSERT_TRUE(session_.run_line(each.line)) << session_.messages().back();
+    session_.frame_all();
+    session_.set_mode(Mode::Pose);
+    Show show;
+    show.has_cage = false;
+    show.refined_levels = 1;
+    session_.set_show(show);
+    session_.select_all(true);
+    Handling handling = session_.handling();
+    handling.has_gizmo = false;
+    session_.set_handling(handling);
+    const auto lines = [&] {
+      display_.update(session_);
+      std::vector<LineSet> found;
+      for (const auto& [id, content] : renderer_.items()) {
+        if (const auto* set = std::get_if<LineSet>(&content)) {
+          found.push_back(*set);
+        }
+      }
+      return found;
+    };
+    const std::vector<LineSet> before = lines();
+    ASSERT_EQ(before.size(), 1u) << each.line;
+    EXPECT_EQ(before[0].points.size(), 2 * each.n_lines) << each.line;
+    const std::size_t n_uploaded = renderer_.n_uploaded();
+    display_.update(session_);
+    EXPECT_EQ(renderer_.n_uploaded(), n_uploaded);
+    for (const char* key : {"g", "x", "2"}) {
+      session_.handle(KeyPress{key});
+    }
+    const std::vector<LineSet> after = lines();
+    const auto scale = static_cast<float>(session_.view().frame.scale);
+    for (std::size_t i = 0; i < before[0].points.size(); ++i) {
+      const glm::vec3 moved = after[0].points[i] - before[0].points[i];
+      EXPECT_LE(glm::distance(moved, glm::vec3(2 * scale, 0, 0)), 1e-5F);
+    }
+  }
+}
+
+TEST_F(DisplayTest, levels_of_a_hierarchy_are_shown_refined_or_not) {
+  session_ = Session();
+  ASSERT_TRUE(session_.run_line("new thb output=a counts=5,5,5"));
+  ASSERT_TRUE(session_.run_line("refine input=a box=0,0,0,0.5,1,1 output=a"));
+  session_.frame_all();
+  const auto n_points = [&](const std::set<std::int32_t>& hidden) {
+    Show show;
+    show.has_cage = false;
+    show.refined_levels = 1;
+    show.hidden_levels = hidden;
+    session_.set_show(show);
+    display_.update(session_);
+    std::size_t n = 0;
+    for (const auto& [id, content] : renderer_.items()) {
+      if (const auto* lines = std::get_if<LineSet>(&content)) {
+        n += lines->points.size();
+      }
+    }
+    return n;
+  };
+  const std::size_t coarse = n_points({1});
+  const std::size_t fine = n_points({0});
+  EXPECT_GT(coarse, 0u);
+  EXPECT_GT(fine, coarse);
+  EXPECT_EQ(n_points({}), coarse + fine);
+  EXPECT_EQ(n_points({0, 1}), 0u);
+}
+
+TEST_F(DisplayTest, the_cursor_is_shown_where_it_was_placed) {
+  const std::size_t before = renderer_.items().size();
+  session_.set_cursor(glm::dvec3(1, 2, 3));
+  display_.update(session_);
+  ASSERT_EQ(renderer_.items().size(), before + 1);
+  const auto& lines = std::get<LineSet>(renderer_.items().rbegin()->second);
+  glm::vec3 middle(0);
+  for (const glm::vec3& point : lines.points) {
+    middle += point / static_cast<float>(lines.points.size());
+  }
+  const glm::vec3 expected(session_.view().frame.to_drawing({1, 2, 3}));
+  EXPECT_LE(glm::distance(middle, expected), 1e-5F);
+  session_.set_cursor(std::nullopt);
+  display_.update(session_);
+  EXPECT_EQ(renderer_.items().size(), before);
+}
+
 }  // namespace
 }  // namespace espalier::viewer

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "lattice/core/error.h"
 #include "lattice/core/file.h"
+#include "lattice/io/lattice.h"
 
 namespace espalier::viewer {
 namespace {
@@ -52,6 +56,33 @@ TEST_F(HeadlessTest, a_script_builds_binds_bends_and_saves) {
   EXPECT_EQ(read_file(path("square_bent.obj")), "v 1 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nf 1 2 3 4\n");
   EXPECT_FALSE(is_clay(picture, 300, 300));
   EXPECT_TRUE(is_clay(picture, 790, 250) || is_clay(picture, 790, 350));
+}
+
+/// In a picture: below the knee control points turn by 50 degrees about the middle of its ring.
+TEST_F(HeadlessTest, the_guide_bends_the_figures_knee) {
+  const std::string data = ESPALIER_TEST_DATA;
+  std::filesystem::copy_file(data + "/figure.obj", path("figure.obj"));
+  const std::string script = read_file(data + "/leg_session.txt") + "key ctrl+s\n";
+  (void)run_headless({{path("figure.obj")}, script, "leg_session.txt", 1000, 640});
+  const Lattice lattice = read_any_lattice(path("lattice_bent.json"));
+  const auto* leg = lattice.as<SubdivisionLattice>();
+  ASSERT_NE(leg, nullptr);
+  ASSERT_EQ(leg->complex->n_cells(), 5u);
+  ASSERT_EQ(leg->pose.size(), 24u);
+  // Rings grow downward, four corners each: the third is the knee.
+  glm::dvec3 knee(0.0);
+  for (std::size_t i = 12; i < 16; ++i) {
+    EXPECT_EQ(leg->pose[i - 4], leg->rest[i - 4]);
+    knee += leg->rest[i - 4] / 4.0;
+  }
+  const double angle = glm::radians(50.0);
+  for (std::size_t i = 12; i < 24; ++i) {
+    const glm::dvec3 arm = leg->rest[i] - knee;
+    const glm::dvec3 turned(arm.x, std::cos(angle) * arm.y - std::sin(angle) * arm.z,
+                            std::sin(angle) * arm.y + std::cos(angle) * arm.z);
+    EXPECT_LE(glm::distance(leg->pose[i], knee + turned), 1e-12) << i;
+  }
+  EXPECT_TRUE(std::filesystem::exists(path("figure_bent.obj")));
 }
 
 TEST_F(HeadlessTest, a_file_is_opened_by_typing_its_path_into_the_panel) {

@@ -7,7 +7,7 @@
 
 #include "lattice/core/file.h"
 #include "viewer/app/display.h"
-#include "viewer/interact/session.h"
+#include "viewer/interact/commands.h"
 #include "viewer/render/null_renderer.h"
 
 namespace espalier::viewer {
@@ -94,6 +94,7 @@ TEST_P(SessionRandomTest, keys_and_mouse_in_any_order_leave_it_whole_and_can_be_
       display.update(session);
     }
     session.handle(KeyPress{"escape"});
+    session.set_cursor(std::nullopt);
     while (session.journal().can_undo()) {
       session.undo();
       expect_whole(session);

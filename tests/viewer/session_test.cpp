@@ -10,6 +10,7 @@
 
 #include "lattice/core/error.h"
 #include "lattice/core/file.h"
+#include "viewer/interact/commands.h"
 
 namespace espalier::viewer {
 namespace {
@@ -309,7 +310,74 @@ TEST_F(SessionTest, a_lock_holds_while_points_are_dragged_and_in_what_is_saved) 
   for (std::size_t i = 0; i < locked.size(); ++i) {
     EXPECT_LE(glm::length(written[i] - locked[i]), 1e-6) << i;
   }
-  EXPECT_NE(locked, points("none"));
+  ASSERT_TRUE(
+      session_.run_line("pose move lattice=\"" + path("bar.json") + "\" about=0,0,0 by=0,0.3,0"));
+  EXPECT_NE(points("C0"), points("none"));
+}
+
+TEST_F(SessionTest, what_a_lock_keeps_does_not_move_on_the_screen_either) {
+  press({"b", "ctrl+3", "1", "a"});
+  const std::string names =
+      "model=\"" + path("model.obj") + "\" lattice=\"" + path("bar.json") + "\"";
+  ASSERT_TRUE(session_.run_line("set lock " + names + " lock=C0"));
+  const Selection locked = session_.locked();
+  ASSERT_FALSE(locked.empty());
+  const auto expect_kept = [&] {
+    for (std::size_t i = 0; i < bar().rest.size(); ++i) {
+      EXPECT_EQ(session_.shown_points()[i] == bar().rest[i],
+                locked.contains(static_cast<std::int32_t>(i)));
+    }
+  };
+  press({"g", "x", "0", ".", "2"});
+  expect_kept();
+  press({"enter"});
+  expect_kept();
+  press({"ctrl+z", "s", "3", "-"});  // stopped: space would fold
+  EXPECT_LT(session_.done_fraction(), 1);
+  for (const std::int32_t control : locked) {
+    const auto i = static_cast<std::size_t>(control);
+    EXPECT_EQ(session_.shown_points()[i], bar().rest[i]);
+  }
+  press({"escape"});
+  // Poses move them, but they do not count.
+  ASSERT_TRUE(
+      session_.run_line("pose move lattice=\"" + path("bar.json") + "\" about=0,0,0 by=0,0.3,0"));
+  expect_kept();
+  press({"alt+a"});
+  press({"kp1", "kp5"});
+  const glm::dvec2 margin(30, 30);
+  session_.handle(MousePress{MouseButton::Left, pixel_of({0, 1, 1}) - margin, {}});
+  session_.handle(MouseMove{pixel_of({3, 1, 1}) + margin});
+  session_.handle(MouseRelease{MouseButton::Left, pixel_of({3, 1, 1}) + margin});
+  ASSERT_EQ(session_.selection(), locked);
+  press({"g"});
+  EXPECT_FALSE(session_.transform());
+  EXPECT_NE(session_.messages().back().find("lock keeps"), std::string::npos);
+  ASSERT_TRUE(session_.run_line("set lock " + names + " lock=none"));
+  EXPECT_TRUE(session_.locked().empty());
+}
+
+TEST_F(SessionTest, binding_again_keeps_the_lock_and_how_it_was_bound) {
+  const std::string names =
+      "model=\"" + path("model.obj") + "\" lattice=\"" + path("bar.json") + "\"";
+  ASSERT_TRUE(session_.run_line("bind " + names + " freeze=uniform:2 outside=falloff:2"));
+  ASSERT_TRUE(session_.run_line("set lock " + names + " lock=C1"));
+  press({"ctrl+1", "1", "a", "g", "z", "0", ".", "1", "enter"});  // unties it
+  ASSERT_TRUE(session_.scene().bound.empty());
+  press({"b"});
+  ASSERT_EQ(session_.scene().bound.size(), 1u);
+  const BoundModel& bound = session_.scene().bound.begin()->second;
+  EXPECT_EQ(bound.freeze, "uniform:2");
+  EXPECT_EQ(bound.outside, "falloff:2");
+  EXPECT_EQ(bound.lock.option, "C1");
+  EXPECT_FALSE(bound.lock.controls.empty());
+  const std::string journal = session_.journal().text();
+  Journal replayed;
+  replay(journal, replayed);
+  EXPECT_EQ(replayed.scene().bound.begin()->second.lock.option, "C1");
+  ASSERT_TRUE(session_.run_line("set lock " + names + " lock=none"));
+  press({"b"});
+  EXPECT_EQ(session_.scene().bound.begin()->second.lock.option, "none");
 }
 
 TEST_F(SessionTest, a_lock_needs_a_binding) {

@@ -30,7 +30,7 @@ void Display::add_model(const Session& session, const std::string& name, const B
   mesh.normals.assign(bent.normals().begin(), bent.normals().end());
   mesh.indices = bent.drawing().triangles();
   mesh.places = bent.drawing().vertex_places();
-  mesh.texture = bent.texture();
+  mesh.textures = bent.textures();
   mesh.unit = static_cast<float>(session.view().frame.scale);
   models_.emplace(name, ShownModel{bent.model(), session.view().frame, renderer_.add(mesh),
                                    bent.revision(), bent.arrangement(), false});
@@ -78,6 +78,7 @@ void Display::update_lattice(const Session& session) {
   controls_.show(renderer_, std::move(marks.controls));
   ghost_.show(renderer_, std::move(marks.ghost));
   gizmo_.show(renderer_, std::move(marks.gizmo));
+  cursor_.show(renderer_, std::move(marks.cursor));
   model_marks_.show(renderer_, model_marks(session));
 }
 
@@ -112,19 +113,23 @@ void Display::update_shapes(const Session& session) {
   selected_cell_mesh_.show(renderer_, std::move(cells.selected));
 }
 
-/// Of the first model that the chosen lattice bends.
+/// Of every model that the chosen lattice bends.
 void Display::update_influence(const Session& session) {
   PointSet dots;
-  const auto& all = session.scene().bound;
-  const auto bound = std::find_if(all.begin(), all.end(), [&](const auto& entry) {
-    return entry.first.second == session.lattice();
-  });
-  if (session.show().has_influence && bound != all.end()) {
-    const BoundModel& model = bound->second;
-    if (!heat_ || !heat_->is_for(model.binding)) {
-      heat_.emplace(*model.volume, model.binding);
+  if (!session.show().has_influence) {
+    heat_.clear();
+  }
+  for (const auto& [names, bound] : session.scene().bound) {
+    const auto& [model, lattice] = names;
+    if (!session.show().has_influence || lattice != session.lattice()) {
+      continue;
     }
-    dots = influence_marks(session, bound->first.first, *heat_);
+    auto heat = heat_.find(model);
+    if (heat == heat_.end() || !heat->second.is_for(bound.binding)) {
+      heat_.erase(model);
+      heat = heat_.emplace(model, InfluenceHeat(*bound.volume, bound.binding)).first;
+    }
+    add_influence_marks(session, model, heat->second, dots);
   }
   influence_marks_.show(renderer_, std::move(dots));
 }

@@ -39,9 +39,9 @@ class Display {
 
   Renderer& renderer_;
   std::map<std::string, ShownModel> models_;
-  ShownMarks<LineSet> cage_, rest_, ghost_, gizmo_, refined_lines_;
+  ShownMarks<LineSet> cage_, rest_, ghost_, gizmo_, cursor_, refined_lines_;
   ShownMarks<PointSet> chosen_, controls_, model_marks_, influence_marks_;
-  std::optional<InfluenceHeat> heat_;
+  std::map<std::string, InfluenceHeat> heat_;  // by model that the chosen lattice bends
   ShownMesh surface_mesh_, cell_mesh_, selected_cell_mesh_;
   std::optional<FollowingSurface> surface_;
   std::optional<RefinedNet> refined_;

@@ -124,12 +124,15 @@ void Gui::begin(int width, int height, double seconds) {
   ImGui::NewFrame();
 }
 
-void Gui::end() {
+void Gui::finish() {
   ImGui::Render();
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   ImGuiIO& io = ImGui::GetIO();
   std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
   io.KeyCtrl = false;
+}
+
+void Gui::draw() {
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
 }  // namespace espalier::viewer

@@ -20,8 +20,9 @@ class Gui {
   void type(const Event& event);
   /// Panels are made between these two. seconds: since the last frame.
   void begin(int width, int height, double seconds);
-  /// Draws them into the current frame buffer.
-  void end();
+  void finish();
+  /// Draws those that were finished last into the current frame buffer.
+  void draw();
 };
 
 }  // namespace espalier::viewer

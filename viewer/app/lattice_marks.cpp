@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 
 namespace espalier::viewer {
 namespace {
@@ -11,6 +12,7 @@ constexpr glm::vec3 kSharpRed{0.90F, 0.28F, 0.24F};
 constexpr glm::vec3 kBoundaryGreen{0.30F, 0.72F, 0.38F};
 constexpr glm::vec3 kInnerBlue{0.36F, 0.55F, 0.95F};
 constexpr glm::vec3 kCornerYellow{0.98F, 0.86F, 0.25F};
+constexpr glm::vec3 kLockedRed{0.80F, 0.10F, 0.12F};
 constexpr glm::vec3 kSelected{1.00F, 0.72F, 0.16F};
 constexpr glm::vec3 kChosenPoint{1.00F, 0.50F, 0.05F};
 constexpr glm::vec3 kActive{1.00F, 0.95F, 0.70F};
@@ -18,6 +20,7 @@ constexpr glm::vec3 kPoint{0.10F, 0.11F, 0.13F};
 constexpr glm::vec3 kRest{0.55F, 0.57F, 0.60F};
 constexpr glm::vec3 kInside{0.25F, 0.75F, 0.40F};
 constexpr glm::vec3 kOutside{0.90F, 0.35F, 0.25F};
+constexpr glm::vec3 kCursorRed{0.95F, 0.20F, 0.20F};
 constexpr glm::vec3 kFolded{1.00F, 0.15F, 0.60F};
 constexpr std::array<glm::vec3, 4> kAxes = {glm::vec3{0.93F, 0.30F, 0.33F},
                                             {0.45F, 0.78F, 0.22F},
@@ -89,9 +92,11 @@ PointSet controls_of(const Session& session) {
       continue;
     }
     dots.points.emplace_back(session.view().frame.to_drawing(session.shown_points()[i]));
-    dots.colors.push_back(elements.vertex_sharpness[i] > 0 ? kCornerYellow
-                          : elements.n_levels > 1          ? level_color(elements.levels[i])
-                                                           : kPoint);
+    const bool is_locked = session.locked().contains(static_cast<std::int32_t>(i));
+    dots.colors.push_back(is_locked                          ? kLockedRed
+                          : elements.vertex_sharpness[i] > 0 ? kCornerYellow
+                          : elements.n_levels > 1            ? level_color(elements.levels[i])
+                                                             : kPoint);
   }
   return dots;
 }
@@ -142,6 +147,36 @@ LineSet gizmo_of(const Session& session) {
   return lines;
 }
 
+/// A ring of red and white that faces the eye, and a cross, of the same size in all views.
+LineSet cursor_of(const Session& session) {
+  LineSet lines;
+  lines.width = 2;
+  lines.hidden_opacity = 1;
+  if (!session.cursor()) {
+    return lines;
+  }
+  const View& view = session.view();
+  const double pixel = view.pixel_size(*session.cursor());
+  const auto at = [&](double radius, double turn) {
+    const double angle = 2 * glm::pi<double>() * turn;
+    return glm::vec3(
+        view.frame.to_drawing(*session.cursor() + radius * pixel *
+                                                      (std::cos(angle) * view.camera.right() +
+                                                       std::sin(angle) * view.camera.upward())));
+  };
+  constexpr int kParts = 16;
+  for (int i = 0; i < kParts; ++i) {
+    lines.points.insert(lines.points.end(),
+                        {at(10, double(i) / kParts), at(10, double(i + 1) / kParts)});
+    lines.colors.push_back(i % 2 == 0 ? kCursorRed : glm::vec3(1));
+  }
+  for (int i = 0; i < 4; ++i) {
+    lines.points.insert(lines.points.end(), {at(5, i / 4.0), at(17, i / 4.0)});
+    lines.colors.push_back(glm::vec3(0.05F));
+  }
+  return lines;
+}
+
 void add_dots(const Session& session, const std::string& model, const Binding& binding,
               PointSet& dots) {
   const auto& points = model_in(session.scene(), model).points();
@@ -175,6 +210,7 @@ LatticeMarks lattice_marks(const Session& session) {
   marks.ghost.width = 1.6F;
   marks.ghost.hidden_opacity = 0.4F;
   marks.gizmo = gizmo_of(session);
+  marks.cursor = cursor_of(session);
   return marks;
 }
 
@@ -200,9 +236,10 @@ PointSet model_marks(const Session& session) {
   return dots;
 }
 
-PointSet influence_marks(const Session& session, const std::string& model,
-                         const InfluenceHeat& heat) {
-  PointSet dots{{}, {}, 5, 0, 0};
+void add_influence_marks(const Session& session, const std::string& model,
+                         const InfluenceHeat& heat, PointSet& dots) {
+  dots.diameter = 5;
+  dots.outline = dots.hidden_opacity = 0;
   const BentModel& bent = session.bent_models().all().at(model);
   std::vector<double> weights = session.selection().empty()
                                     ? std::vector<double>(bent.model().points().size(), 1.0)
@@ -220,7 +257,6 @@ PointSet influence_marks(const Session& session, const std::string& model,
       dots.colors.push_back(heat_color(weights[points[i]]));
     }
   }
-  return dots;
 }
 
 }  // namespace espalier::viewer

@@ -14,11 +14,12 @@ namespace espalier::viewer {
 /// In drawing units; empty where there is nothing to see.
 struct LatticeMarks {
   LineSet cage;  ///< between control points: sharp red, outer green, inner blue; by level from 1
-  PointSet controls;  ///< yellow where they are corners; by level in a hierarchy
+  PointSet controls;  ///< yellow where they are corners, red where locked; by level
   PointSet chosen;    ///< halos of those that are selected
   LineSet rest;       ///< in Pose mode, faint: where the lattice was
   LineSet ghost;      ///< of cells to come
   LineSet gizmo;
+  LineSet cursor;
 };
 
 [[nodiscard]] LatticeMarks lattice_marks(const Session& session);
@@ -27,10 +28,10 @@ struct LatticeMarks {
 /// other modes those that are folded.
 [[nodiscard]] PointSet model_marks(const Session& session);
 
-/// The points of a bound model by how much the selection moves them, or all lattices may if nothing
-/// is selected.
-[[nodiscard]] PointSet influence_marks(const Session& session, const std::string& model,
-                                       const InfluenceHeat& heat);
+/// Adds the points of a bound model by how much the selection moves them, or all lattices may if
+/// nothing is selected.
+void add_influence_marks(const Session& session, const std::string& model,
+                         const InfluenceHeat& heat, PointSet& dots);
 
 /// Of the control points of a level of a hierarchy.
 [[nodiscard]] glm::vec3 level_color(std::int32_t level);

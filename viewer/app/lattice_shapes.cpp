@@ -1,10 +1,13 @@
 #include "viewer/app/lattice_shapes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "deform/evaluate/volume_boundary.h"
+#include "deform/scene/operations.h"
 #include "lattice/subdivision/refine.h"
 #include "lattice/subdivision/subdivision_boundary.h"
+#include "viewer/app/lattice_marks.h"
 
 namespace espalier::viewer {
 namespace {
@@ -32,15 +35,13 @@ BoundarySurface surface_of(const Lattice& lattice) {
                                 : boundary_surface(lattice.freeze());
 }
 
-/// The lattice refined, with its control points where the session shows them.
-TensorLattice refined_at(const TensorLattice& lattice, const Session& session, int levels) {
-  TensorLattice moved = lattice;
-  moved.rest.assign(session.shown_points().begin(), session.shown_points().end());
-  moved.pose.clear();
-  for (int level = 0; level < levels; ++level) {
-    moved = refined(moved);
-  }
-  return moved;
+/// The lattice refined, posed by its control points.
+Lattice refined_at(const Lattice& lattice, std::span<const glm::dvec3> controls, int levels) {
+  const std::string name = "lattice";
+  const Scene scene = with_lattice(
+      Scene(), name, lattice.with_pose(std::vector<glm::dvec3>(controls.begin(), controls.end())));
+  const Arguments arguments({{"input", name}, {"levels", std::int64_t{levels}}, {"output", name}});
+  return lattice_in(apply({"refine", arguments}, scene), name);
 }
 
 }  // namespace
@@ -79,9 +80,9 @@ RefinedNet::RefinedNet(const Lattice& lattice, int levels) : source_(lattice), l
     return;
   }
   std::vector<Refinement> refinements = refine(*subdivision, levels);
-  points_ = std::move(refinements.front().stencils);
+  stencils_ = std::move(refinements.front().stencils);
   for (std::size_t i = 1; i < refinements.size(); ++i) {
-    points_ = compose(points_, refinements[i].stencils);
+    stencils_ = compose(stencils_, refinements[i].stencils);
   }
   const CellComplex& complex = *refinements.back().complex;
   for (const EdgeId edge : complex.edges()) {
@@ -95,28 +96,51 @@ bool RefinedNet::is_for(const Lattice& lattice, int levels) const {
   return levels == levels_ && is_same_structure(lattice, source_);
 }
 
-LineSet RefinedNet::at(const Session& session) const {
-  std::vector<glm::dvec3> points;
-  std::vector<std::array<std::int32_t, 2>> edges;
-  if (const auto* tensor = source_.as<TensorLattice>()) {
-    const TensorLattice fine = refined_at(*tensor, session, levels_);
-    points = fine.rest;
-    edges = Lattice(fine).net();
-  } else if (!edges_.empty()) {
-    points = points_.apply(session.shown_points());
-    edges = edges_;
+/// What knots are inserted into has other lines only where it is another lattice.
+void RefinedNet::refine_at(std::span<const glm::dvec3> controls) {
+  if (source_.as<SubdivisionLattice>() != nullptr) {
+    points_ = stencils_.apply(controls);
+    return;
   }
-  LineSet lines;
-  lines.width = 1.2F;
-  lines.hidden_opacity = 0.15F;
-  for (const auto& ends : edges) {
-    for (const std::int32_t end : ends) {
-      lines.points.emplace_back(
-          session.view().frame.to_drawing(points[static_cast<std::size_t>(end)]));
+  const Lattice fine = refined_at(source_, controls, levels_);
+  points_.assign(fine.posed_points().begin(), fine.posed_points().end());
+  if (edges_.empty()) {
+    edges_ = fine.net();
+    if (const auto* thb = fine.as<ThbLattice>()) {
+      for (const auto& ends : edges_) {
+        edge_levels_.push_back(thb->hierarchy->controls()[static_cast<std::size_t>(ends[0])].level);
+      }
     }
   }
-  lines.colors.assign(edges.size(), kRefined);
-  return lines;
+}
+
+const LineSet& RefinedNet::at(const Session& session) {
+  const std::span<const glm::dvec3> controls = session.shown_points();
+  const DrawingFrame& frame = session.view().frame;
+  const std::set<std::int32_t>& hidden = session.show().hidden_levels;
+  const bool is_still = std::ranges::equal(controls, controls_);
+  if (is_still && frame == frame_ && hidden == hidden_levels_) {
+    return lines_;
+  }
+  if (!is_still) {
+    refine_at(controls);
+    controls_.assign(controls.begin(), controls.end());
+  }
+  frame_ = frame;
+  hidden_levels_ = hidden;
+  lines_ = LineSet();
+  lines_.width = std::clamp(60 / std::sqrt(static_cast<float>(edges_.size() + 1)), 0.5F, 1.2F);
+  lines_.hidden_opacity = 0.15F;
+  for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
+    if (!edge_levels_.empty() && hidden.contains(std::max(0, edge_levels_[edge] - levels_))) {
+      continue;
+    }
+    for (const std::int32_t end : edges_[edge]) {
+      lines_.points.emplace_back(frame.to_drawing(points_[static_cast<std::size_t>(end)]));
+    }
+    lines_.colors.push_back(edge_levels_.empty() ? kRefined : level_color(edge_levels_[edge]));
+  }
+  return lines_;
 }
 
 ShrunkCells shrunk_cells(const Session& session) {

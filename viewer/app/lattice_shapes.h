@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
+#include <span>
 #include <vector>
 
 #include "lattice/volume/boundary_surface.h"
@@ -31,19 +33,30 @@ class FollowingSurface {
   BoundarySurface surface_;
 };
 
-/// The lines of a lattice refined as often as the session shows it; a hierarchy's stay as they are.
+/// The lines of a lattice refined as often as the session shows it: of a hierarchy those of the
+/// levels that are shown, each as much finer, in their colours.
 class RefinedNet {
  public:
   RefinedNet(const Lattice& lattice, int levels);
 
   [[nodiscard]] bool is_for(const Lattice& lattice, int levels) const;
-  [[nodiscard]] LineSet at(const Session& session) const;
+  /// Throws as the operation that refines. O(1) as long as nothing moves.
+  [[nodiscard]] const LineSet& at(const Session& session);
 
  private:
+  void refine_at(std::span<const glm::dvec3> controls);
+
   Lattice source_;
   int levels_;
-  StencilTable points_;  // over control points
+  StencilTable stencils_;  // over control points, of a subdivision lattice
   std::vector<std::array<std::int32_t, 2>> edges_;
+  std::vector<std::int32_t> edge_levels_;  // of a hierarchy; else empty
+  std::vector<glm::dvec3> points_;
+  // What the lines are for.
+  std::vector<glm::dvec3> controls_;
+  DrawingFrame frame_;
+  std::set<std::int32_t> hidden_levels_;
+  LineSet lines_;
 };
 
 /// The visible cells, smaller, as solids; those selected in a mesh of their own.

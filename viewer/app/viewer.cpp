@@ -29,6 +29,9 @@ void Viewer::handle(const Event& event) {
     session_.end_preview();
     return;
   }
+  if (key != nullptr && !has_text_field && handle_menu(chord)) {
+    return;
+  }
   if (chord == "ctrl+q") {
     ask_to_quit();
     return;
@@ -40,6 +43,22 @@ void Viewer::handle(const Event& event) {
   } else {
     session_.handle(event);
   }
+}
+
+/// A digit takes an entry of the menu that is open, any other key closes it.
+bool Viewer::handle_menu(const std::string& chord) {
+  if (state_.menu == nullptr) {
+    state_.menu = session_.transform() ? nullptr : menu_on(chord);
+    return state_.menu != nullptr;
+  }
+  const Menu& menu = *std::exchange(state_.menu, nullptr);
+  const std::string digit = chord.starts_with("kp") ? chord.substr(2) : chord;
+  for (std::size_t i = 0; i < menu.entries.size(); ++i) {
+    if (digit == std::to_string(i + 1)) {
+      menu.entries[i].run(session_);
+    }
+  }
+  return true;
 }
 
 void Viewer::open(const std::string& path) {
@@ -59,15 +78,11 @@ void Viewer::remember(const std::string& path) {
 }
 
 void Viewer::draw(double seconds) {
-  const View& view = session_.view();
   state_.frame_seconds = seconds;
-  gui_.begin(view.width, view.height, seconds);
-  for (const Action& action : draw_panels(session_, state_)) {
-    try {
-      action(session_);
-    } catch (const Error& error) {
-      session_.say(error.what());
-    }
+  has_shown_task_ = false;
+  make_panels(seconds);
+  if (has_shown_task_) {
+    make_panels(0);  // the task's panel took their place
   }
   // What could not be saved is not lost.
   if (std::exchange(state_.saves_and_quits, false)) {
@@ -83,16 +98,40 @@ void Viewer::draw(double seconds) {
     session_.say(error.what());
     session_.set_show(Show());  // what cannot be shown is not asked for again
   }
+  const View& view = session_.view();
   renderer_->draw(view.camera, view.width, view.height);
-  gui_.end();
+  gui_.draw();
 }
 
-void Viewer::draw_task(std::string_view task, double fraction) {
+/// Actions are done once the panels are finished: long ones draw frames of their own.
+void Viewer::make_panels(double seconds) {
+  gui_.begin(session_.view().width, session_.view().height, seconds);
+  const std::vector<Action> actions = draw_panels(session_, state_);
+  gui_.finish();
+  for (const Action& action : actions) {
+    try {
+      action(session_);
+    } catch (const Error& error) {
+      session_.say(error.what());
+    }
+  }
+}
+
+bool Viewer::stops_task(const Event& event) {
+  const auto* key = std::get_if<KeyPress>(&event);
+  static_cast<void>(gui_.handle(event));
+  return key != nullptr && key->chord == "escape";
+}
+
+bool Viewer::draw_task(std::string_view task, double fraction) {
   const View& view = session_.view();
+  has_shown_task_ = true;
   gui_.begin(view.width, view.height, 0);
-  draw_progress(task, fraction);
+  const bool is_stopped = draw_progress(task, fraction);
+  gui_.finish();
   renderer_->draw(view.camera, view.width, view.height);
-  gui_.end();
+  gui_.draw();
+  return is_stopped;
 }
 
 void Viewer::ask_to_quit() {

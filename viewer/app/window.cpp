@@ -212,6 +212,10 @@ double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
+bool is_button(const Event& event) {
+  return std::holds_alternative<MousePress>(event) || std::holds_alternative<MouseRelease>(event);
+}
+
 /// The lines of a file; none if it cannot be read.
 std::vector<std::string> lines_of(const std::string& path) {
   std::ifstream file(path);
@@ -245,17 +249,20 @@ class Program {
   void begin() {
     viewer_.handle(window_.size());
     viewer_.set_recent(lines_of(options_.recent));
+    left_ = autosave_.take_leftovers();
     std::vector<std::string> files = options_.files;
-    if (options_.recovers) {
+    if (options_.recovers || !left_.empty()) {
+      // Going on with a session goes to where it ran.
       for (std::string& file : files) {
         file = std::filesystem::absolute(file).string();
       }
-      recover();
-    } else if (autosave_.moves_leftover()) {
-      viewer_.session().say(
-          "The last session did not end well. Close this window and start espalier-viewer "
-          "--recover to go on from there.");
     }
+    if (options_.recovers && left_.empty()) {
+      viewer_.session().say("There is nothing to recover: the last session ended well.");
+    } else if (options_.recovers) {
+      recover(0);
+    }
+    offer();
     for (const std::string& file : files) {
       viewer_.open(file);
     }
@@ -274,26 +281,55 @@ class Program {
     draw();
   }
 
-  void recover() {
+  void offer() {
+    std::vector<std::string> titles;
+    for (const LeftJournal& left : left_) {
+      titles.push_back(left.title());
+    }
+    viewer_.offer(std::move(titles));
+  }
+
+  /// Its file is no longer needed once our own has it.
+  void recover(std::size_t which) {
+    const LeftJournal left = std::move(left_[which]);
+    left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(which));
+    std::error_code failure;
+    std::filesystem::current_path(left.folder, failure);
     try {
-      const LeftJournal left = autosave_.recovered();
-      std::error_code failure;
-      std::filesystem::current_path(left.folder, failure);
-      viewer_.session().recover(left.text);
+      if (viewer_.session().recover(left.text) && !autosave_.path().empty()) {
+        autosave_.keep(viewer_.session().journal());
+        left.remove();
+        return;
+      }
     } catch (const Error& error) {
       viewer_.session().say(error.what());
+    }
+    viewer_.session().say("What was left is still in " + left.path + ".");
+  }
+
+  /// What the panel of sessions that did not end well was told.
+  void choose_left() {
+    const auto recovered = viewer_.take_recovered();
+    const auto thrown_away = viewer_.take_thrown_away();
+    if (recovered) {
+      recover(*recovered);
+      offer();
+    } else if (thrown_away) {
+      left_[*thrown_away].remove();
+      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(*thrown_away));
+      offer();
+    } else if (!viewer_.is_offering()) {
+      left_.clear();  // for another window, or the next start
     }
   }
 
   /// The panels see where the mouse is, and every press and release, only by drawing a frame: on a
   /// slow machine several come at once.
   void handle(const Event& event) {
-    const bool is_button =
-        std::holds_alternative<MousePress>(event) || std::holds_alternative<MouseRelease>(event);
-    if (is_button && has_mouse_news_) {
+    if (is_button(event) && has_mouse_news_) {
       draw();
     }
-    has_mouse_news_ |= is_button || std::holds_alternative<MouseMove>(event);
+    has_mouse_news_ |= is_button(event) || std::holds_alternative<MouseMove>(event);
     task_began_ = Clock::now();
     viewer_.handle(event);
   }
@@ -313,6 +349,7 @@ class Program {
     task_began_ = Clock::now();
     draw();
     autosave();
+    choose_left();
     keep_recent();
   }
 
@@ -348,7 +385,7 @@ class Program {
     }
   }
 
-  /// Shows a task that takes longer than a moment; Esc stops it.
+  /// Shows a task that takes longer than a moment; its button and Esc stop it.
   bool on_progress(std::string_view task, double fraction) {
     constexpr double kPatience = 0.4;
     constexpr double kRedraw = 0.1;
@@ -358,17 +395,21 @@ class Program {
     }
     drawn_ = now;
     window_.poll();
-    viewer_.draw_task(task, fraction);
+    bool is_stopped = false;
+    for (const Event& event : window_.take_events()) {
+      is_stopped |= viewer_.stops_task(event);
+      if (is_button(event)) {
+        is_stopped |= viewer_.draw_task(task, fraction);
+      }
+    }
+    is_stopped |= viewer_.draw_task(task, fraction);
     window_.show();
-    const std::vector<Event> events = window_.take_events();
-    return std::none_of(events.begin(), events.end(), [](const Event& event) {
-      const auto* key = std::get_if<KeyPress>(&event);
-      return key != nullptr && key->chord == "escape";
-    });
+    return !is_stopped;
   }
 
   const WindowOptions& options_;
   Autosave autosave_;
+  std::vector<LeftJournal> left_;
   Glfw glfw_;
   Window window_;
   Viewer viewer_;

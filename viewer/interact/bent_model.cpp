@@ -55,13 +55,16 @@ BentModel::BentModel(const Model& model, const DrawingFrame& frame, std::uint64_
     : BentModel(model, frame, revision, find_texture(model)) {}
 
 BentModel::BentModel(const Model& model, const DrawingFrame& frame, std::uint64_t revision,
-                     std::optional<ModelTexture> texture)
+                     const std::optional<ModelTexture>& texture)
     : model_(model),
       drawing_(model.points(), model.faces(),
                {.frame = {frame.origin, 1},
                 .corner_places = texture ? std::span<const glm::vec2>(texture->corner_places)
-                                         : std::span<const glm::vec2>()}),
-      texture_(texture ? texture->picture : nullptr),
+                                         : std::span<const glm::vec2>(),
+                .face_groups = texture ? std::span<const std::int32_t>(texture->face_groups)
+                                       : std::span<const std::int32_t>()}),
+      textures_(texture ? texture_ranges(*texture, drawing_.group_sizes())
+                        : std::vector<TextureRange>()),
       rest_(vertices_from(frame.origin, model, drawing_)),
       normals_(drawing_.normals(model.points())),
       revision_(revision),

@@ -59,8 +59,8 @@ class BentModel {
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const MeshDrawing& drawing() const { return drawing_; }
-  /// None for a model without.
-  [[nodiscard]] const std::shared_ptr<const Picture>& texture() const { return texture_; }
+  /// What its triangles wear; none for a model without pictures.
+  [[nodiscard]] const std::vector<TextureRange>& textures() const { return textures_; }
   /// #vertices each.
   [[nodiscard]] std::span<const glm::vec3> positions() const { return positions_; }
   [[nodiscard]] std::span<const glm::vec3> normals() const { return normals_; }
@@ -111,11 +111,11 @@ class BentModel {
   void note_dragged();
 
   BentModel(const Model& model, const DrawingFrame& frame, std::uint64_t revision,
-            std::optional<ModelTexture> texture);
+            const std::optional<ModelTexture>& texture);
 
   Model model_;
   MeshDrawing drawing_;
-  std::shared_ptr<const Picture> texture_;
+  std::vector<TextureRange> textures_;
   std::vector<glm::dvec3> rest_;          // #vertices, from the frame's origin
   std::vector<glm::dvec3> rest_normals_;  // #vertices
   std::shared_ptr<const ModelInfluence> influence_;

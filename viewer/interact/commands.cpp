@@ -1,6 +1,8 @@
 /// What every key means.
 
-#include "viewer/interact/session.h"
+#include "viewer/interact/commands.h"
+
+#include <algorithm>
 
 namespace espalier::viewer {
 
@@ -66,21 +68,57 @@ std::vector<Command> handling_commands() {
     return switching(
         [axis](Handling& handling) { handling.mirrors.at(axis) = !handling.mirrors.at(axis); });
   };
+  return {{"Back to rest", "alt+g", &Session::rest},
+          {"Soft selection (wheel: radius)", "o",
+           switching([](Handling& handling) { handling.is_soft = !handling.is_soft; })},
+          {"Stop drags before folds, or not", "shift+f", switching([](Handling& handling) {
+             handling.stops_at_folds = !handling.stops_at_folds;
+           })},
+          {"Next pivot", "shift+.", switching([](Handling& handling) {
+             handling.pivot = static_cast<Pivot>((static_cast<int>(handling.pivot) + 1) % 6);
+           })},
+          {"Mirror moves along x", "shift+x", mirror(0)},
+          {"Mirror moves along y", "shift+y", mirror(1)},
+          {"Mirror moves along z", "shift+z", mirror(2)},
+          {"Keys as in Blender, or as in Maya", "f4", switching([](Handling& handling) {
+             handling.preset = handling.preset == Preset::Blender ? Preset::Maya : Preset::Blender;
+           })}};
+}
+
+Menu pivot_menu() {
+  const auto pivot = [](Pivot wanted) {
+    return switching([=](Handling& handling) { handling.pivot = wanted; });
+  };
+  return {"Turn and scale about",
+          ".",
+          {{"the middle of the selection's box", "", pivot(Pivot::Box)},
+           {"the cursor", "", pivot(Pivot::Cursor)},
+           {"its own middle, each part", "", pivot(Pivot::Individual)},
+           {"the selection's median", "", pivot(Pivot::Median)},
+           {"what was selected last", "", pivot(Pivot::Active)},
+           {"the origin", "", pivot(Pivot::Origin)}}};
+}
+
+Menu snap_menu() {
   return {
-      {"Back to rest", "alt+g", &Session::rest},
-      {"Soft selection (wheel: radius)", "o",
-       switching([](Handling& handling) { handling.is_soft = !handling.is_soft; })},
-      {"Stop drags before folds, or not", "shift+f",
-       switching([](Handling& handling) { handling.stops_at_folds = !handling.stops_at_folds; })},
-      {"Next pivot: middle, last selected, origin", "shift+.", switching([](Handling& handling) {
-         handling.pivot = static_cast<Pivot>((static_cast<int>(handling.pivot) + 1) % 3);
-       })},
-      {"Mirror moves along x", "shift+x", mirror(0)},
-      {"Mirror moves along y", "shift+y", mirror(1)},
-      {"Mirror moves along z", "shift+z", mirror(2)},
-      {"Keys as in Blender, or as in Maya", "f4", switching([](Handling& handling) {
-         handling.preset = handling.preset == Preset::Blender ? Preset::Maya : Preset::Blender;
-       })}};
+      "Snap",
+      "shift+s",
+      {{"cursor to what is selected", "", &Session::cursor_to_selected},
+       {"cursor to what was selected last", "", &Session::cursor_to_active},
+       {"cursor to the origin", "", [](Session& session) { session.set_cursor(glm::dvec3(0.0)); }},
+       {"no cursor", "", [](Session& session) { session.set_cursor(std::nullopt); }},
+       {"selection to the cursor", "", &Session::selection_to_cursor}}};
+}
+
+/// Entries of menus under their menu's name.
+std::vector<Command> menu_commands() {
+  std::vector<Command> all;
+  for (const Menu& menu : menus()) {
+    for (const Command& entry : menu.entries) {
+      all.push_back({menu.title + ": " + entry.name, "", entry.run});
+    }
+  }
+  return all;
 }
 
 std::vector<Command> selection_commands(Preset preset) {
@@ -117,15 +155,15 @@ std::vector<Command> view_commands(Preset preset) {
       {"Show the volume's boundary, or not", "shift+v",
        showing([](Show& show) { show.has_surface = !show.has_surface; })},
       {"See all", preset == Preset::Blender ? "home" : "home a", &Session::frame_all},
-      {"See what is selected", preset == Preset::Blender ? "kp. ." : "kp. . f",
+      {"See what is selected", preset == Preset::Blender ? "kp. shift+home" : "kp. shift+home f",
        &Session::frame_selected},
-      {"Look from the front", "kp1", look("front")},
-      {"Look from the back", "ctrl+kp1", look("back")},
-      {"Look from the right", "kp3", look("right")},
-      {"Look from the left", "ctrl+kp3", look("left")},
-      {"Look from above", "kp7", look("top")},
-      {"Look from below", "ctrl+kp7", look("bottom")},
-      {"With or without perspective", "kp5", &Session::toggle_projection}};
+      {"Look from the front", "kp1 alt+1", look("front")},
+      {"Look from the back", "ctrl+kp1 ctrl+alt+1", look("back")},
+      {"Look from the right", "kp3 alt+3", look("right")},
+      {"Look from the left", "ctrl+kp3 ctrl+alt+3", look("left")},
+      {"Look from above", "kp7 alt+7", look("top")},
+      {"Look from below", "ctrl+kp7 ctrl+alt+7", look("bottom")},
+      {"With or without perspective", "kp5 alt+5", &Session::toggle_projection}};
 }
 
 std::vector<Command> all_commands(Preset preset) {
@@ -136,7 +174,7 @@ std::vector<Command> all_commands(Preset preset) {
       {"Save bent models and the pose", "ctrl+s", &Session::save}};
   for (const std::vector<Command>& more :
        {transform_commands(preset), handling_commands(), selection_commands(preset), journal,
-        view_commands(preset)}) {
+        view_commands(preset), menu_commands()}) {
     all.insert(all.end(), more.begin(), more.end());
   }
   return all;
@@ -148,6 +186,17 @@ const std::vector<Command>& commands(Preset preset) {
   static const std::vector<Command> kBlender = all_commands(Preset::Blender);
   static const std::vector<Command> kMaya = all_commands(Preset::Maya);
   return preset == Preset::Blender ? kBlender : kMaya;
+}
+
+const std::vector<Menu>& menus() {
+  static const std::vector<Menu> kMenus = {pivot_menu(), snap_menu()};
+  return kMenus;
+}
+
+const Menu* menu_on(std::string_view chord) {
+  const auto found = std::find_if(menus().begin(), menus().end(),
+                                  [&](const Menu& menu) { return menu.key == chord; });
+  return found == menus().end() ? nullptr : &*found;
 }
 
 }  // namespace espalier::viewer

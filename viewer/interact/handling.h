@@ -14,15 +14,18 @@ enum class Preset { Blender, Maya };
 
 /// What points turn about and scale from.
 enum class Pivot {
-  Middle,  ///< of the selected points
-  Last,    ///< the element that was selected last
-  Origin   ///< of the model's coordinates
+  Median,      ///< the mean of the selected points
+  Active,      ///< the element that was selected last
+  Origin,      ///< of the model's coordinates
+  Box,         ///< the middle of the box round the selected points
+  Individual,  ///< of each part of the selection that hangs together its own mean
+  Cursor       ///< where the cursor was placed
 };
 
 /// A value.
 struct Handling {
   Preset preset = Preset::Blender;
-  Pivot pivot = Pivot::Middle;
+  Pivot pivot = Pivot::Median;
   TransformKind gizmo = TransformKind::Move;  ///< what its handles do
   bool has_gizmo = true;
   bool has_wireframe = false;  ///< the models' triangles are outlined

@@ -1,10 +1,12 @@
 #include "viewer/interact/operation_form.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <sstream>
 
 #include "lattice/core/error.h"
+#include "lattice/io/number_text.h"
 
 namespace espalier::viewer {
 namespace {
@@ -116,6 +118,20 @@ std::string reference_text(const Parameter& parameter, const FormContext& contex
                                                   : context.lattice;
 }
 
+bool is_place_type(const Parameter& parameter) {
+  return parameter.type == ParameterType::Numbers && parameter.count == 3;
+}
+
+/// To seven digits: more cannot be placed by hand.
+std::string text_of_place(const glm::dvec3& place) {
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) {
+    text += axis > 0 ? "," : "";
+    append_number(text, static_cast<float>(place[axis]));
+  }
+  return text;
+}
+
 std::string first_text(const Operation& operation, const Parameter& parameter,
                        const FormContext& context) {
   if (is_reference(parameter.type)) {
@@ -130,6 +146,12 @@ std::string first_text(const Operation& operation, const Parameter& parameter,
         });
     return changes_lattice && !context.lattice.empty() ? context.lattice
                                                        : new_name(operation, context);
+  }
+  constexpr std::array<const char*, 4> kCenters = {"about", "point", "center", "from"};
+  const bool is_center =
+      std::find(kCenters.begin(), kCenters.end(), parameter.name) != kCenters.end();
+  if (context.cursor && is_center && is_place_type(parameter)) {
+    return text_of_place(*context.cursor);
   }
   const std::string selected = selected_text(parameter.name, context);
   return !selected.empty()    ? selected
@@ -162,6 +184,19 @@ bool has_numbers(ParameterType type) {
 }
 
 }  // namespace
+
+bool FormField::is_place() const {
+  constexpr std::array<const char*, 7> kPlaces = {"about", "point", "center", "from",
+                                                  "to",    "min",   "max"};
+  return parameter->name == "joint" ||
+         (is_place_type(*parameter) &&
+          std::find(kPlaces.begin(), kPlaces.end(), parameter->name) != kPlaces.end());
+}
+
+void FormField::put(const glm::dvec3& place) {
+  const bool adds = parameter->is_list && !text.empty();
+  text = (adds ? text + (text.ends_with('\n') ? "" : "\n") : "") + text_of_place(place);
+}
 
 OperationCall OperationForm::call() const {
   std::string line = operation->name;

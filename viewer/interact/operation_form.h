@@ -2,6 +2,8 @@
 
 /// A form for any operation of the table: its parameters as text to fill in.
 
+#include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,7 @@ struct FormContext {
   ElementKind kind = ElementKind::Vertex;
   Selection selection{};  ///< of the chosen lattice's elements
   const LatticeElements* elements = nullptr;
+  std::optional<glm::dvec3> cursor{};  ///< where joints and centres are, to begin with
 };
 
 /// One parameter.
@@ -26,6 +29,11 @@ struct FormField {
   const Parameter* parameter = nullptr;
   std::string text;                  ///< empty: left out; one line a value of a list
   std::vector<std::string> choices;  ///< to choose from; empty: anything may be typed
+
+  /// Whether it is a place in space, or a list of such.
+  [[nodiscard]] bool is_place() const;
+  /// Takes a place, as the next one of a list.
+  void put(const glm::dvec3& place);
 };
 
 /// A value.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "deform/scene/operations.h"
 #include "lattice/core/error.h"
@@ -17,6 +18,22 @@ std::string result_of(const OperationCall& call) {
     }
   }
   return "";
+}
+
+/// Whether both scenes have a model bound to the lattice in the same way, and it is not huge.
+bool is_still_bound(const Scene& before, const Scene& after, const std::string& lattice) {
+  constexpr std::size_t kMostPoints = 400'000;
+  std::size_t n_points = 0;
+  bool is_bound = false;
+  for (const auto& [names, bound] : before.bound) {
+    const auto now = after.bound.find(names);
+    if (now == after.bound.end() || now->second.binding != bound.binding) {
+      return false;
+    }
+    n_points += bound.binding->status.size();
+    is_bound |= names.second == lattice;
+  }
+  return is_bound && n_points <= kMostPoints;
 }
 
 }  // namespace
@@ -35,13 +52,16 @@ Preview preview_of(const OperationCall& call, const Scene& scene, const Progress
     return preview;
   }
   try {
-    const Scene after = apply(call, scene, progress);
+    Scene after = apply(call, scene, progress);
     const auto found = after.lattices.find(name);
     if (found != after.lattices.end()) {
       const auto points = found->second.posed_points();
       for (const auto& ends : found->second.net()) {
         preview.segments.push_back(points[static_cast<std::size_t>(ends[0])]);
         preview.segments.push_back(points[static_cast<std::size_t>(ends[1])]);
+      }
+      if (is_still_bound(scene, after, name)) {
+        preview.posed = std::move(after);
       }
     }
   } catch (const Cancelled&) {

@@ -3,6 +3,7 @@
 /// What an operation would make of a lattice, before it is done.
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct Preview {
   std::vector<glm::dvec3> segments;  ///< the net of the lattice that would result, two points each
   std::string error;                 ///< why it cannot be done; empty if it can
   bool was_stopped = false;          ///< by its progress: then nothing is known
+  std::optional<Scene> posed{};      ///< if models that are bound would follow
 };
 
 /// Tries an operation that has a lattice as its result; of others nothing is known. Writes no

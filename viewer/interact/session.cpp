@@ -20,6 +20,27 @@ Box bounds_of(const Scene& scene) {
   return box;
 }
 
+/// The control points that count as unmoved for every model bound to a lattice.
+Selection locked_by_all(const Scene& scene, const std::string& lattice) {
+  std::map<std::int32_t, std::size_t> n_locks;
+  std::size_t n_bound = 0;
+  for (const auto& [names, bound] : scene.bound) {
+    if (names.second == lattice) {
+      ++n_bound;
+      for (const std::int32_t control : bound.lock.controls) {
+        ++n_locks[control];
+      }
+    }
+  }
+  Selection locked;
+  for (const auto& [control, n] : n_locks) {
+    if (n == n_bound) {
+      locked.insert(control);
+    }
+  }
+  return locked;
+}
+
 }  // namespace
 
 void Session::say(const std::string& message) {
@@ -39,7 +60,7 @@ void Session::handle(const Event& event) {
 bool Session::apply(const OperationCall& call) {
   transform_.reset();
   fraction_ = 1;
-  end_preview();
+  const Preview before = std::exchange(preview_, Preview());
   try {
     journal_.apply(call, progress_);
     scene_changed();
@@ -47,6 +68,9 @@ bool Session::apply(const OperationCall& call) {
   } catch (const Error& error) {
     say(call.operation + ": " + error.what());
     bent_.cancel_drag();
+    if (before.posed) {
+      bend_models();
+    }
     return false;
   }
 }
@@ -70,14 +94,16 @@ bool Session::run_line(const std::string& line) {
 }
 
 bool Session::recover(const std::string& journal_text) {
+  bool is_whole = true;
   try {
     replay(journal_text, journal_, progress_);
   } catch (const Error& error) {
     say(error.what());
+    is_whole = false;
   }
   scene_changed();
   frame_all();
-  return messages_.empty();
+  return is_whole;
 }
 
 /// The chosen lattice may be gone or another one.
@@ -103,7 +129,15 @@ void Session::scene_changed() {
   if (lattice_.empty()) {
     selection_.clear();
   }
+  note_bindings();
   refresh();
+}
+
+/// They are kept where the binding itself is dropped.
+void Session::note_bindings() {
+  for (const auto& [names, bound] : scene().bound) {
+    habits_[names] = {bound.freeze, bound.outside, bound.lock.option};
+  }
 }
 
 /// What follows from the scene, the mode and what is shown.
@@ -111,7 +145,47 @@ void Session::refresh() {
   visible_ = lattice_.empty()
                  ? Visible()
                  : visible_elements(elements_, points_of(scene(), lattice_, Shape::Rest), show_);
-  bent_.update(scene(), view_.frame, mode_ == Mode::Pose);
+  find_points();
+  bend_models();
+}
+
+void Session::bend_models() {
+  bent_.update(preview_.posed ? *preview_.posed : scene(), view_.frame, mode_ == Mode::Pose);
+}
+
+/// Bound models follow a pose that is only looked at.
+void Session::preview(const OperationCall& call, bool waits) {
+  cancel_transform();
+  preview_ = preview_of(call, scene(), waits ? progress_ : impatience());
+  bend_models();
+}
+
+void Session::end_preview() {
+  const bool is_posed = preview_.posed.has_value();
+  preview_ = Preview();
+  if (is_posed) {
+    bend_models();
+  }
+}
+
+/// What every bound model takes as unmoved is shown where it counts: at rest.
+void Session::find_points() {
+  locked_.clear();
+  points_.clear();
+  if (lattice_.empty()) {
+    return;
+  }
+  const auto points = points_of(scene(), lattice_, shape());
+  points_.assign(points.begin(), points.end());
+  if (mode_ != Mode::Pose) {
+    return;
+  }
+  locked_ = locked_by_all(scene(), lattice_);
+  const auto rest = points_of(scene(), lattice_, Shape::Rest);
+  for (const std::int32_t control : locked_) {
+    const auto i = static_cast<std::size_t>(control);
+    points_[i] = rest[i];
+  }
 }
 
 void Session::choose_lattice(const std::string& name) {

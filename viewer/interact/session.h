@@ -3,12 +3,13 @@
 /// A user at work: mouse and keys in, operations of the scene out.
 
 #include <array>
-#include <functional>
 #include <glm/vec2.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "viewer/interact/bent_models.h"
@@ -34,6 +35,11 @@ struct Rubber {
   glm::dvec2 to{0.0};
 };
 
+/// How a model was tied to a lattice last.
+struct BindingHabit {
+  std::string freeze, outside, lock;
+};
+
 /// What a user sees and changes, without any window. Errors become messages.
 class Session {
  public:
@@ -47,7 +53,8 @@ class Session {
   bool open(const std::string& path);
   /// Does the operation that a line of a journal holds.
   bool run_line(const std::string& line);
-  /// Replays a journal's text on top of what is there.
+  /// Replays a journal's text on top of what is there, as far as that can be done; false if not to
+  /// its end.
   bool recover(const std::string& journal_text);
 
   // What a panel's buttons and keys do.
@@ -65,9 +72,16 @@ class Session {
   /// Hides what is selected; reveal() shows all that was hidden so.
   void hide_selected();
   void reveal();
+  /// The cursor goes to the model under a pixel, or beside it as far away as it is.
+  void place_cursor(const glm::dvec2& at);
+  void set_cursor(const std::optional<glm::dvec3>& place) { cursor_ = place; }
+  void cursor_to_selected();
+  void cursor_to_active();
+  /// Moves what is selected so that its middle is at the cursor.
+  void selection_to_cursor();
   /// A lattice of one cell round all models, lattice.json beside the first one.
   void new_box();
-  /// Ties every model to the chosen lattice.
+  /// Ties every model to the chosen lattice, with the options and the lock that it had before.
   void bind();
   /// The chosen lattice back at rest.
   void rest();
@@ -76,10 +90,8 @@ class Session {
   /// The greatest of the selected edges or vertices.
   [[nodiscard]] double sharpness() const;
   /// What an operation would make is shown until it is done or ended. waits: however long it takes.
-  void preview(const OperationCall& call, bool waits = false) {
-    preview_ = preview_of(call, scene(), waits ? progress_ : impatience());
-  }
-  void end_preview() { preview_ = Preview(); }
+  void preview(const OperationCall& call, bool waits = false);
+  void end_preview();
   /// Does what a form says, and chooses the lattice that it makes.
   void run_form(const OperationCall& call);
   /// Writes every bound model, bent, and the chosen lattice with its pose beside their files, as
@@ -106,10 +118,13 @@ class Session {
   [[nodiscard]] const LatticeElements& elements() const { return elements_; }
   [[nodiscard]] const Visible& visible() const { return visible_; }  ///< of the elements
   [[nodiscard]] const Selection& selection() const { return selection_; }
+  [[nodiscard]] const std::optional<glm::dvec3>& cursor() const { return cursor_; }
   [[nodiscard]] Selection selected_vertices() const {
     return elements_.vertices(kind_, selection_);
   }
   [[nodiscard]] Shape shape() const { return mode_ == Mode::Pose ? Shape::Pose : Shape::Rest; }
+  /// In Pose mode the control points that the locks of all bound models keep at rest.
+  [[nodiscard]] const Selection& locked() const { return locked_; }
   /// The chosen lattice's points as they are on the screen, a transform in progress included.
   [[nodiscard]] std::span<const glm::dvec3> shown_points() const;
   /// The models as they are on the screen: bent in Pose mode only.
@@ -143,6 +158,9 @@ class Session {
   bool on_transform_key(const std::string& chord);
   [[nodiscard]] Drag drag_of(const MousePress& press) const;
   [[nodiscard]] glm::dvec3 pivot() const;
+  [[nodiscard]] bool may_move();
+  [[nodiscard]] std::string shape_name() const { return mode_ == Mode::Pose ? "pose" : "rest"; }
+  bool bind_model(const std::string& model);
   void begin_drag();
   void follow_transform();
   void mirror(std::vector<glm::dvec3>& to) const;
@@ -156,6 +174,9 @@ class Session {
   [[nodiscard]] std::optional<std::int32_t> picked(ElementKind kind, const glm::dvec2& at) const;
   void scene_changed();
   void refresh();
+  void find_points();
+  void bend_models();
+  void note_bindings();
 
   Progress progress_;
   Journal journal_;
@@ -170,6 +191,10 @@ class Session {
   Visible visible_;
   Selection selection_;
   Selection last_selected_;  // vertices of the element that was clicked last
+  std::optional<glm::dvec3> cursor_;
+  Selection locked_;
+  std::vector<glm::dvec3> points_;  // #controls: on the screen, but for a transform
+  std::map<std::pair<std::string, std::string>, BindingHabit> habits_;  // by (model, lattice)
   BentModels bent_;
   std::optional<Transform> transform_;
   std::vector<double> weights_;                      // #controls: how much each follows a transform
@@ -183,15 +208,5 @@ class Session {
   Preview preview_;
   std::vector<std::string> messages_;
 };
-
-/// A thing a key, the help and the command palette know.
-struct Command {
-  std::string name;
-  std::string keys;  ///< chords, separated by blanks; empty: none
-  std::function<void(Session&)> run;
-};
-
-/// All commands of a session, in the order in which help lists them.
-[[nodiscard]] const std::vector<Command>& commands(Preset preset = Preset::Blender);
 
 }  // namespace espalier::viewer

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "lattice/core/error.h"
-#include "viewer/interact/session.h"
+#include "viewer/interact/commands.h"
 
 namespace espalier::viewer {
 namespace {
@@ -79,6 +79,10 @@ void Session::on(const MousePress& press) {
     } else if (press.button == MouseButton::Right) {
       cancel_transform();
     }
+    return;
+  }
+  if (press.button == MouseButton::Right && press.held.shift && !press.held.alt) {
+    place_cursor(press.at);
     return;
   }
   drag_ = drag_of(press);

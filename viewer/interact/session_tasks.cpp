@@ -58,10 +58,30 @@ void Session::bind() {
     names.push_back(name);
   }
   for (const std::string& name : names) {
-    if (!apply({"bind", Arguments({{"model", name}, {"lattice", lattice_}})})) {
+    if (!bind_model(name)) {
       return;
     }
   }
+}
+
+bool Session::bind_model(const std::string& model) {
+  Arguments arguments({{"model", model}, {"lattice", lattice_}});
+  const auto known = habits_.find({model, lattice_});
+  const BindingHabit habit = known != habits_.end() ? known->second : BindingHabit();
+  if (!habit.freeze.empty()) {
+    arguments.set("freeze", habit.freeze);
+  }
+  if (!habit.outside.empty()) {
+    arguments.set("outside", habit.outside);
+  }
+  if (!apply({"bind", arguments})) {
+    return false;
+  }
+  if (habit.lock.empty() || habit.lock == scene().bound.at({model, lattice_}).lock.option) {
+    return true;
+  }
+  return apply(
+      {"set lock", Arguments({{"model", model}, {"lattice", lattice_}, {"lock", habit.lock}})});
 }
 
 void Session::rest() {
@@ -112,6 +132,7 @@ FormContext Session::form_context() const {
   context.kind = kind_;
   context.selection = selection_;
   context.elements = &elements_;
+  context.cursor = cursor_;
   return context;
 }
 

@@ -131,15 +131,16 @@ std::vector<glm::dvec3> Transform::apply(const View& view, std::span<const glm::
     if (weights[i] == 0) {
       continue;
     }
-    const glm::dvec3 arm = points[i] - pivot;
+    const glm::dvec3& center = pivots.empty() ? pivot : pivots[i];
+    const glm::dvec3 arm = points[i] - center;
     if (kind == TransformKind::Move || kind == TransformKind::Extrude) {
       moved[i] = points[i] + weights[i] * by;
     } else if (kind == TransformKind::Turn) {
-      moved[i] = pivot + glm::dvec3(glm::rotate(glm::dmat4(1), weights[i] * turn, axis) *
-                                    glm::dvec4(arm, 0));
+      moved[i] = center + glm::dvec3(glm::rotate(glm::dmat4(1), weights[i] * turn, axis) *
+                                     glm::dvec4(arm, 0));
     } else {
       for (int k = 0; k < 3; ++k) {
-        moved[i][k] = pivot[k] + arm[k] * (scales(k) ? 1 + weights[i] * (ratio - 1) : 1.0);
+        moved[i][k] = center[k] + arm[k] * (scales(k) ? 1 + weights[i] * (ratio - 1) : 1.0);
       }
     }
   }
@@ -192,6 +193,9 @@ std::vector<double> soft_weights(std::span<const glm::dvec3> points, const Selec
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (selected.contains(static_cast<std::int32_t>(i))) {
       weights[i] = 1;
+      continue;
+    }
+    if (!(radius > 0)) {
       continue;
     }
     double nearest = std::numeric_limits<double>::infinity();

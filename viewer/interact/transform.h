@@ -27,12 +27,13 @@ struct AxisLock {
 struct Transform {
   TransformKind kind = TransformKind::Move;
   AxisLock lock{};
-  std::string number;      ///< as typed so far; empty: the mouse decides
-  glm::dvec2 from{0.0};    ///< where the mouse was at first, pixels
-  glm::dvec2 at{0.0};      ///< where it is
-  glm::dvec3 pivot{0.0};   ///< model units
-  glm::dvec3 normal{0.0};  ///< unit; of Extrude
-  bool is_held = false;    ///< ends when the mouse button is released
+  std::string number;                ///< as typed so far; empty: the mouse decides
+  glm::dvec2 from{0.0};              ///< where the mouse was at first, pixels
+  glm::dvec2 at{0.0};                ///< where it is
+  glm::dvec3 pivot{0.0};             ///< model units
+  glm::dvec3 normal{0.0};            ///< unit; of Extrude
+  bool is_held = false;              ///< ends when the mouse button is released
+  std::vector<glm::dvec3> pivots{};  ///< #points: their own; empty: `pivot` for all
 
   /// Types a digit, point or minus, or takes one back ("backspace"); false for another key.
   bool type(const std::string& key);

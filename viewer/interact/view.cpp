@@ -35,6 +35,11 @@ double View::pixel_size(const glm::dvec3& point) const {
   return units_a_pixel(camera, depth, height) / frame.scale;
 }
 
+glm::dvec3 View::point_at(const glm::dvec2& pixel, const glm::dvec3& depth) const {
+  const glm::dvec2 by = pixel_size(depth) * (pixel - glm::dvec2(project(depth)));
+  return depth + by.x * camera.right() - by.y * camera.upward();
+}
+
 glm::dvec3 View::eye_before(const glm::dvec3& point) const {
   if (camera.projection == Projection::Perspective) {
     return frame.to_model(camera.eye());

@@ -23,6 +23,8 @@ struct View {
   [[nodiscard]] glm::dvec3 project(const glm::dvec3& point) const;
   /// How far a pixel reaches at the depth of a point, in model units.
   [[nodiscard]] double pixel_size(const glm::dvec3& point) const;
+  /// The point seen at a pixel that is as far before the eye's plane as another one.
+  [[nodiscard]] glm::dvec3 point_at(const glm::dvec2& pixel, const glm::dvec3& depth) const;
   /// The eye, or for an orthographic view the point straight before `point` that far away, in model
   /// units.
   [[nodiscard]] glm::dvec3 eye_before(const glm::dvec3& point) const;

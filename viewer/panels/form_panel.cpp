@@ -31,6 +31,21 @@ bool choose(const char* label, FormField& field) {
   return is_changed;
 }
 
+/// A button that puts the cursor's place into a field.
+bool take_cursor(const std::optional<glm::dvec3>& cursor, FormField& field) {
+  if (!cursor || !field.is_place()) {
+    return false;
+  }
+  ImGui::SameLine();
+  ImGui::PushID(&field);
+  const bool is_pressed = ImGui::SmallButton("cursor");
+  ImGui::PopID();
+  if (is_pressed) {
+    field.put(*cursor);
+  }
+  return is_pressed;
+}
+
 bool edit(FormField& field) {
   const Parameter& parameter = *field.parameter;
   const std::string label = parameter.name + (parameter.is_required ? " *" : "");
@@ -93,6 +108,7 @@ void draw_form_panel(const Session& session, PanelState& state, std::vector<Acti
   state.previews_form = false;
   for (FormField& field : state.form->fields) {
     is_changed |= edit(field);
+    is_changed |= take_cursor(session.cursor(), field);
   }
   ImGui::PopItemWidth();
   if (is_changed) {

@@ -47,8 +47,8 @@ void draw_lock(const std::pair<std::string, std::string>& names, const Lock& loc
                std::vector<Action>& actions) {
   constexpr std::array<const char*, 4> kOptions = {"none", "C0", "C1", "C2"};
   constexpr std::array<const char*, 4> kLabels = {
-      "tears where it leaves the lattice", "joins there in position (C0)",
-      "joins there in slope (C1)", "joins there in curvature (C2)"};
+      "tears where it leaves it", "joins there in position (C0)", "joins there in slope (C1)",
+      "joins there in curvature (C2)"};
   ImGui::PushID((names.first + "\n" + names.second).c_str());
   ImGui::SetNextItemWidth(-1);
   const auto now = std::find(kOptions.begin(), kOptions.end(), lock.option);

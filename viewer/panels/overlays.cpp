@@ -43,9 +43,12 @@ void draw_help(const Session& session, PanelState& state) {
       "it, too. Click selects, Shift adds, a dragged box selects, Alt and a click takes a loop. "
       "While "
       "points move: x, y, z lock an axis, Shift with them a plane, digits give a number.");
-  ImGui::TextUnformatted("F1 help   F2 files   F3 find a command");
+  ImGui::TextUnformatted(
+      "F1 help   F2 files   F3 find a command   . pivots   Shift+S snap   Shift and the right "
+      "button: place the cursor");
   ImGui::Separator();
-  const std::vector<Command>& all = commands(session.handling().preset);
+  std::vector<Command> all = commands(session.handling().preset);
+  std::erase_if(all, [](const Command& command) { return command.keys.empty(); });
   const std::size_t n_rows = (all.size() + 1) / 2;
   ImGui::Columns(4, "keys", false);
   ImGui::SetColumnWidth(0, 120);
@@ -87,7 +90,8 @@ void draw_palette(const Session& session, PanelState& state, std::vector<Action>
            (ImGui::Selectable(label.c_str()) || std::exchange(takes_next, false));
   };
   for (const Command& command : commands(session.handling().preset)) {
-    const std::string label = command.name + "   (" + command.keys + ")";
+    const std::string label =
+        command.name + (command.keys.empty() ? "" : "   (" + command.keys + ")");
     if (is_chosen(label)) {
       actions.emplace_back(command.run);
       state.shows_palette = false;
@@ -137,6 +141,8 @@ std::vector<Action> draw_panels(const Session& session, PanelState& state) {
   draw_palette(session, state, actions);
   draw_file_panel(session, state, actions);
   draw_form_panel(session, state, actions);
+  draw_menu(state, actions);
+  draw_recovery_panel(state);
   draw_quit_question(state, actions);
   return actions;
 }

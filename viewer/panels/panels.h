@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "viewer/interact/session.h"
+#include "viewer/interact/commands.h"
 
 namespace espalier::viewer {
 
@@ -31,7 +31,10 @@ struct PanelState {
   double frame_seconds = 0;
   std::optional<OperationForm> form{};  ///< being filled in
   std::string form_error{};
-  bool previews_form = false;  ///< the form was just opened
+  bool previews_form = false;     ///< the form was just opened
+  const Menu* menu = nullptr;     ///< that is open
+  std::vector<std::string> left;  ///< sessions that did not end well, as they are listed
+  std::optional<std::size_t> recovered, thrown_away;  ///< which of them the user chose
 };
 
 /// All of them.
@@ -43,6 +46,10 @@ void draw_tool_panel(const Session& session, PanelState& state, std::vector<Acti
 float draw_object_panel(const Session& session, std::vector<Action>& actions);
 void draw_message_panel(const Session& session, std::vector<Action>& actions);
 void draw_status_line(const Session& session, const PanelState& state);
+/// Sessions to go on with, as long as there are any.
+void draw_recovery_panel(PanelState& state);
+/// At the mouse.
+void draw_menu(PanelState& state, std::vector<Action>& actions);
 void draw_help(const Session& session, PanelState& state);
 void draw_palette(const Session& session, PanelState& state, std::vector<Action>& actions);
 void draw_file_panel(const Session& session, PanelState& state, std::vector<Action>& actions);
@@ -52,7 +59,7 @@ void draw_form_panel(const Session& session, PanelState& state, std::vector<Acti
 /// What is shown of the lattice, and how it is cut. top: pixels from above.
 void draw_show_panel(const Session& session, float top, std::vector<Action>& actions);
 void draw_quit_question(PanelState& state, std::vector<Action>& actions);
-/// While a task runs: how far it is, and how to stop it.
-void draw_progress(std::string_view task, double fraction);
+/// While a task runs: how far it is; true if it is to stop.
+[[nodiscard]] bool draw_progress(std::string_view task, double fraction);
 
 }  // namespace espalier::viewer

@@ -84,11 +84,9 @@ void draw_show_panel(const Session& session, float top, std::vector<Action>& act
   ImGui::Checkbox("Boundary of the volume", &show.has_surface);
   ImGui::Checkbox("Cells, shrunk", &show.has_shrunk_cells);
   ImGui::Checkbox("Influence of the selection", &show.has_influence);
-  if (session.elements().n_levels == 1) {
-    ImGui::SetNextItemWidth(-1);
-    ImGui::SliderInt("##refined", &show.refined_levels, 0, 3,
-                     show.refined_levels == 0 ? "refined: off" : "refined %d times");
-  }
+  ImGui::SetNextItemWidth(-1);
+  ImGui::SliderInt("##refined", &show.refined_levels, 0, 3,
+                   show.refined_levels == 0 ? "refined: off" : "refined %d times");
   draw_cut(show);
   if (session.elements().n_levels > 1) {
     draw_levels(session.elements().n_levels, show);

@@ -71,14 +71,19 @@ void draw_status_line(const Session& session, const PanelState& state) {
   ImGui::PopStyleVar();
 }
 
-void draw_progress(std::string_view task, double fraction) {
+bool draw_progress(std::string_view task, double fraction) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(size.x / 2, size.y / 2), ImGuiCond_Always, ImVec2(0.5F, 0.5F));
   ImGui::SetNextWindowSize(ImVec2(360, 0));
   ImGui::Begin("progress", nullptr, kFixed);
-  ImGui::Text("%s   (Esc: stop)", std::string(task).c_str());
-  ImGui::ProgressBar(static_cast<float>(fraction));
+  constexpr float kButton = 90;
+  ImGui::TextUnformatted(std::string(task).c_str());
+  ImGui::ProgressBar(static_cast<float>(fraction),
+                     ImVec2(-kButton - ImGui::GetStyle().ItemSpacing.x, 0));
+  ImGui::SameLine();
+  const bool is_stopped = ImGui::Button("Stop (Esc)", ImVec2(kButton, 0));
   ImGui::End();
+  return is_stopped;
 }
 
 }  // namespace espalier::viewer

@@ -137,7 +137,9 @@ void draw_handling(const Session& session, std::vector<Action>& actions) {
   }
   int pivot = static_cast<int>(handling.pivot);
   ImGui::SetNextItemWidth(-1);
-  ImGui::Combo("##pivot", &pivot, "about the middle\0about the last selected\0about the origin\0");
+  ImGui::Combo("##pivot", &pivot,
+               "about the median\0about the last selected\0about the origin\0about the box's "
+               "middle\0each part about its own\0about the cursor\0");
   handling.pivot = static_cast<Pivot>(pivot);
   if (handling != session.handling()) {
     actions.emplace_back([handling](Session& target) { target.set_handling(handling); });

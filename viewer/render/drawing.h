@@ -3,6 +3,7 @@
 /// What a picture shows, as plain data in drawing units (drawing_frame.h): float positions near
 /// the origin. Colours are display (sRGB) colours in [0,1]; widths are pixels of the picture.
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -16,15 +17,21 @@ namespace espalier::viewer {
 /// Clay: the colour of a model that has none of its own.
 inline constexpr glm::vec3 kClay{0.84F, 0.67F, 0.55F};
 
+/// Triangles that follow one another and wear one picture.
+struct TextureRange {
+  std::size_t n_indices = 0;                 ///< Three a triangle.
+  std::shared_ptr<const Picture> picture{};  ///< Repeats; in place of the colour. None: the colour.
+};
+
 /// A shaded surface, lit on both sides.
 struct TriangleMesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;      ///< One a position: unit, or zero for the facet's own.
   std::vector<std::uint32_t> indices;  ///< Three a triangle.
   glm::vec3 color = kClay;
-  float opacity = 1;                         ///< In [0,1]; below 1 what is behind shines through.
-  std::vector<glm::vec2> places{};           ///< In the texture, one a position, v upward; or none.
-  std::shared_ptr<const Picture> texture{};  ///< Repeats; in place of the colour. None: the colour.
+  float opacity = 1;                     ///< In [0,1]; below 1 what is behind shines through.
+  std::vector<glm::vec2> places{};       ///< In the pictures, one a position, v upward; or none.
+  std::vector<TextureRange> textures{};  ///< Of all indices, in their order; or none.
   float unit = 1;  ///< Drawing units that one of the positions' is long; above 0.
 };
 

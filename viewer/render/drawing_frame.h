@@ -28,6 +28,7 @@ struct DrawingFrame {
     return point / scale + origin;
   }
   [[nodiscard]] Box to_drawing(const Box& box) const;
+  bool operator==(const DrawingFrame&) const = default;
 };
 
 }  // namespace espalier::viewer

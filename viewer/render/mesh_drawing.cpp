@@ -128,8 +128,19 @@ MeshDrawing::MeshDrawing(std::span<const glm::dvec3> points,
                          " places in the texture given for " + std::to_string(faces.n_values()) +
                          " corners");
   }
+  if (!options.face_groups.empty() && options.face_groups.size() != faces.n_rows()) {
+    throw ParameterError("MeshDrawing: " + std::to_string(options.face_groups.size()) +
+                         " groups given for " + std::to_string(faces.n_rows()) + " faces");
+  }
+  for (const std::int32_t group : options.face_groups) {
+    if (group < 0) {
+      throw ParameterError("MeshDrawing: a face has group " + std::to_string(group) +
+                           ", they count from 0");
+    }
+  }
   keep_drawable_faces(points, faces);
   options_.corner_places = {};  // of the caller
+  options_.face_groups = {};
   split_points_at_creases(points);
   triangulate_faces(points);
 }
@@ -154,6 +165,7 @@ void MeshDrawing::keep_drawable_faces(std::span<const glm::dvec3> points,
     }
     if (!loop.empty()) {
       loops_.push_back(loop);
+      loop_groups_.push_back(options_.face_groups.empty() ? 0 : options_.face_groups[face]);
     }
   }
 }
@@ -202,14 +214,22 @@ void MeshDrawing::split_points_at_creases(std::span<const glm::dvec3> points) {
 void MeshDrawing::triangulate_faces(std::span<const glm::dvec3> points) {
   std::vector<glm::dvec3> positions;
   std::vector<std::uint32_t> corners;
-  for (std::size_t face = 0; face < loops_.n_rows(); ++face) {
+  std::vector<std::size_t> order(loops_.n_rows());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return loop_groups_[a] < loop_groups_[b]; });
+  for (const std::size_t face : order) {
     gather(loops_[face], points, positions);
     corners.clear();
     triangulate(positions, corners);
     for (const std::uint32_t corner : corners) {
       triangles_.push_back(corner_vertices_[loops_.offset(face) + corner]);
     }
+    const auto group = static_cast<std::size_t>(loop_groups_[face]);
+    group_sizes_.resize(std::max(group_sizes_.size(), group + 1), 0);
+    group_sizes_[group] += corners.size();
   }
+  group_sizes_.resize(std::max(group_sizes_.size(), std::size_t{1}), 0);
 }
 
 MeshDrawing MeshDrawing::reordered(std::span<const std::uint32_t> order) const {

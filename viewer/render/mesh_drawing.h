@@ -19,6 +19,8 @@ struct MeshDrawingOptions {
   /// Of corners, parallel to the faces: points whose corners differ become several vertices. Empty:
   /// there is no texture.
   std::span<const glm::vec2> corner_places{};
+  /// One a face, from 0 on: triangles are drawn in the order of their groups. Empty: one group.
+  std::span<const std::int32_t> face_groups{};
   double crease_angle = 40;  ///< Degrees: faces that meet at more get an edge between them.
   glm::vec3 color = kClay;
   float opacity = 1;
@@ -42,6 +44,8 @@ class MeshDrawing {
   [[nodiscard]] std::size_t n_vertices() const { return vertex_points_.size(); }
   /// Three vertices a triangle, turning as the faces do.
   [[nodiscard]] const std::vector<std::uint32_t>& triangles() const { return triangles_; }
+  /// How many of these values each group has; one of all if there are no groups.
+  [[nodiscard]] const std::vector<std::size_t>& group_sizes() const { return group_sizes_; }
   /// The point each vertex is drawn at.
   [[nodiscard]] const std::vector<std::uint32_t>& vertex_points() const { return vertex_points_; }
 
@@ -72,7 +76,9 @@ class MeshDrawing {
   std::vector<std::uint32_t> vertex_points_;
   std::vector<glm::vec2> corner_places_;  // one a value of loops_, or none
   std::vector<glm::vec2> vertex_places_;
+  std::vector<std::int32_t> loop_groups_;  // one a loop
   std::vector<std::uint32_t> triangles_;
+  std::vector<std::size_t> group_sizes_;
 };
 
 /// Draws a mesh once. See MeshDrawing.

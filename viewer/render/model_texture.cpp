@@ -32,6 +32,8 @@
 namespace espalier::viewer {
 namespace {
 
+/// Of pictures together, and of the file of one.
+constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 constexpr TextSyntax kSyntax{.comment = '#', .joins_lines = true};
 
 std::string beside(const std::string& path, std::string_view name) {
@@ -82,24 +84,45 @@ class TextureScanner {
       }
     }
     const bool is_whole = texture_.corner_places.size() == model_.faces().n_values();
-    if (picture_.empty() || !is_whole) {
+    if (!is_whole || !read_pictures()) {
       return std::nullopt;
     }
-    texture_.picture = std::make_shared<const Picture>(read_picture(picture_));
     return std::move(texture_);
   }
 
  private:
-  /// A picture is that of the first face with one.
   void add_face(TextScanner& lines) {
     const auto found = pictures_.find(material_);
-    if (picture_.empty() && found != pictures_.end()) {
-      picture_ = found->second;
-    }
-    const bool is_covered = found != pictures_.end() && found->second == picture_;
+    const bool is_covered = found != pictures_.end();
+    texture_.face_groups.push_back(is_covered ? group_of(found->second) : 0);
     for (std::string_view word = lines.next_word(); !word.empty(); word = lines.next_word()) {
       texture_.corner_places.push_back(is_covered ? place_of(word) : kNoPlace);
     }
+  }
+
+  std::int32_t group_of(const std::string& picture) {
+    const auto next = static_cast<std::int32_t>(groups_.size()) + 1;
+    return groups_.emplace(picture, next).first->second;
+  }
+
+  /// False if none can be.
+  bool read_pictures() {
+    texture_.pictures.resize(groups_.size());
+    std::size_t n_bytes = 0;
+    bool has_some = false;
+    for (const auto& [path, group] : groups_) {
+      try {
+        auto picture = std::make_shared<const Picture>(read_picture(path));
+        n_bytes += picture->pixels.size();
+        if (n_bytes <= kMostBytes) {
+          texture_.pictures[static_cast<std::size_t>(group - 1)] = std::move(picture);
+          has_some = true;
+        }
+      } catch (const Error&) {
+        continue;  // its faces have the model's colour
+      }
+    }
+    return has_some;
   }
 
   /// Of "v/vt/vn": numbers below 0 count from the last.
@@ -123,7 +146,7 @@ class TextureScanner {
   std::vector<glm::dvec2> places_;
   std::map<std::string, std::string> pictures_;
   std::string material_;
-  std::string picture_;
+  std::map<std::string, std::int32_t> groups_;  // by picture, from 1
   ModelTexture texture_;
 };
 
@@ -134,7 +157,6 @@ Picture read_picture(const std::string& path) {
   int width = 0;
   int height = 0;
   int n_channels = 0;
-  constexpr std::size_t kMostBytes = std::size_t{1} << 30;
   if (bytes.size() > kMostBytes) {
     throw FileError(path, "is too large for a picture");
   }
@@ -148,6 +170,15 @@ Picture read_picture(const std::string& path) {
   Picture picture(width, height);
   std::copy_n(pixels.get(), picture.pixels.size(), picture.pixels.begin());
   return picture;
+}
+
+std::vector<TextureRange> texture_ranges(const ModelTexture& texture,
+                                         std::span<const std::size_t> group_sizes) {
+  std::vector<TextureRange> ranges;
+  for (std::size_t group = 0; group < group_sizes.size(); ++group) {
+    ranges.push_back({group_sizes[group], group == 0 ? nullptr : texture.pictures[group - 1]});
+  }
+  return ranges;
 }
 
 std::optional<ModelTexture> find_texture(const Model& model) {

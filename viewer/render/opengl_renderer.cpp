@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/gtc/matrix_transform.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -24,6 +25,12 @@ constexpr double kNearestMark = 1e-3;
 
 enum class Kind { Mesh, Lines, Points };
 
+/// Indices that follow one another, drawn with a picture or without.
+struct GpuTexture {
+  GLsizei n;
+  std::shared_ptr<const GlTexture> picture;
+};
+
 /// A mesh, line set or point set on the GPU.
 struct GpuItem {
   Kind kind = Kind::Mesh;
@@ -40,7 +47,7 @@ struct GpuItem {
   GlBuffer normals_or_colors;
   GlBuffer indices;
   std::optional<GlBuffer> places;
-  std::optional<GlTexture> texture;
+  std::vector<GpuTexture> textures;
 };
 
 /// The part of a picture that is drawn at once, in pixels from its bottom left corner.
@@ -81,6 +88,22 @@ void store(const Picture& picture, const GlTexture& texture) {
   glBindTexture(GL_TEXTURE_2D, 0);
 }
 
+/// One picture for several ranges is stored once.
+std::vector<GpuTexture> stored(const std::vector<TextureRange>& ranges) {
+  std::unordered_map<const Picture*, std::shared_ptr<const GlTexture>> known;
+  std::vector<GpuTexture> result;
+  for (const TextureRange& range : ranges) {
+    std::shared_ptr<const GlTexture>& texture = known[range.picture.get()];
+    if (range.picture && !texture) {
+      auto made = std::make_shared<GlTexture>();
+      store(*range.picture, *made);
+      texture = std::move(made);
+    }
+    result.push_back({static_cast<GLsizei>(range.n_indices), texture});
+  }
+  return result;
+}
+
 /// Enlarges a tile of the picture to all of clip space.
 glm::dmat4 tile_matrix(const Tile& tile, const Shot& shot) {
   const glm::dvec3 grow(double(shot.width) / tile.width, double(shot.height) / tile.height, 1);
@@ -110,6 +133,7 @@ class OpenglRenderer final : public Renderer {
   void draw_background(const Shot& shot, const Tile& tile);
   void set_view(const GlProgram& program, const Shot& shot, const Tile& tile) const;
   void draw_meshes(const Shot& shot, bool is_opaque) const;
+  void draw_triangles(const GpuItem& item) const;
   void draw_wireframe(const GpuItem& item) const;
   void draw_marks(const Shot& shot, const MarkPass& pass) const;
   void draw_lines(const GpuItem& item, const MarkPass& pass) const;
@@ -134,14 +158,13 @@ void OpenglRenderer::do_add(ItemId id, const TriangleMesh& mesh) {
   glBindVertexArray(item.layout.id());
   attach(kPositionAttribute, item.positions, 0, 0, 1);
   attach(kNormalAttribute, item.normals_or_colors, 0, 0, 1);
-  if (mesh.texture) {
+  if (!mesh.textures.empty()) {
     item.places.emplace();
     upload<glm::vec2>(*item.places, mesh.places);
     glBindBuffer(GL_ARRAY_BUFFER, item.places->id());
     glEnableVertexAttribArray(kPlaceAttribute);
     glVertexAttribPointer(kPlaceAttribute, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
-    item.texture.emplace();
-    store(*mesh.texture, *item.texture);
+    item.textures = stored(mesh.textures);
   }
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, item.indices.id());
   glBindVertexArray(0);
@@ -319,11 +342,7 @@ void OpenglRenderer::draw_meshes(const Shot& shot, bool is_opaque) const {
       shaders_.mesh.set("color", item.color);
       shaders_.mesh.set("opacity", item.opacity);
       shaders_.mesh.set("unit", item.unit);
-      shaders_.mesh.set("has_texture", item.texture ? 1.F : 0.F);
-      glActiveTexture(GL_TEXTURE0);
-      glBindTexture(GL_TEXTURE_2D, item.texture ? item.texture->id() : 0);
-      glBindVertexArray(item.layout.id());
-      glDrawElements(GL_TRIANGLES, item.n, GL_UNSIGNED_INT, nullptr);
+      draw_triangles(item);
       if (item.has_wireframe) {
         draw_wireframe(item);
       }
@@ -332,6 +351,25 @@ void OpenglRenderer::draw_meshes(const Shot& shot, bool is_opaque) const {
 }
 
 /// A mesh that was just drawn once more, as lines, a little nearer to the eye.
+void OpenglRenderer::draw_triangles(const GpuItem& item) const {
+  glActiveTexture(GL_TEXTURE0);
+  glBindVertexArray(item.layout.id());
+  std::uintptr_t first = 0;
+  const auto draw = [&](GLsizei n, const GlTexture* texture) {
+    shaders_.mesh.set("has_texture", texture != nullptr ? 1.F : 0.F);
+    glBindTexture(GL_TEXTURE_2D, texture != nullptr ? texture->id() : 0);
+    glDrawElements(GL_TRIANGLES, n, GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(first));  // NOLINT: an offset by tradition
+    first += static_cast<std::uintptr_t>(n) * sizeof(std::uint32_t);
+  };
+  for (const GpuTexture& texture : item.textures) {
+    draw(texture.n, texture.picture.get());
+  }
+  if (item.textures.empty()) {
+    draw(item.n, nullptr);
+  }
+}
+
 void OpenglRenderer::draw_wireframe(const GpuItem& item) const {
   constexpr float kDarker = 0.3F;
   shaders_.mesh.set("color", kDarker * item.color);

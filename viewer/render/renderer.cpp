@@ -42,8 +42,14 @@ void check_pixels(float value, const std::string& what) {
 
 void check(const TriangleMesh& mesh) {
   check_count(mesh.normals.size(), mesh.positions.size(), "normals");
-  check_count(mesh.places.size(), mesh.texture ? mesh.positions.size() : mesh.places.size(),
+  check_count(mesh.places.size(),
+              mesh.textures.empty() ? mesh.places.size() : mesh.positions.size(),
               "places in the texture");
+  std::size_t n_textured = 0;
+  for (const TextureRange& range : mesh.textures) {
+    n_textured += range.n_indices;
+  }
+  check_count(n_textured, mesh.textures.empty() ? 0 : mesh.indices.size(), "textured indices");
   for (const glm::vec2& place : mesh.places) {
     if (!std::isfinite(place.x) || !std::isfinite(place.y)) {
       fail("a place in the texture is not finite");
