@@ -384,17 +384,6 @@ class LevelFreezer {
   std::map<VertexId, std::int32_t> limit_points_;
 };
 
-/// Rows of some vertices of a level.
-StencilTable rows_of(const StencilTable& table, const std::vector<VertexId>& vertices) {
-  return StencilTable::build(vertices.size(), table.n_controls(),
-                             [&](std::size_t i, StencilRow& row) {
-                               const StencilTable::Row source = table[vertices[i].index()];
-                               for (std::size_t k = 0; k < source.indices.size(); ++k) {
-                                 row.add(source.indices[k], source.weights[k]);
-                               }
-                             });
-}
-
 StencilTable identity(std::size_t n) {
   return StencilTable::build(
       n, n, [](std::size_t i, StencilRow& row) { row.add(static_cast<std::int32_t>(i), 1.0); });
