@@ -128,8 +128,10 @@ Json json_of(const CheckReport& report) {
   }
   json["undecided_boxes"] = Json::array();
   for (const UndecidedBox& box : report.local.undecided) {
-    json["undecided_boxes"].push_back(
-        {{"patch", box.patch}, {"low", json_of(box.box.low)}, {"high", json_of(box.box.high)}});
+    json["undecided_boxes"].push_back({{"patch", box.patch},
+                                       {"low", json_of(box.box.low)},
+                                       {"high", json_of(box.box.high)},
+                                       {"rest", json_of(box.rest)}});
   }
   if (!report.is_boundary_at_rest) {
     add_boundary(report.boundary, json);
@@ -189,7 +191,9 @@ std::string text_of(const std::string& path, const CheckReport& report) {
                   name_of(injective_of(report)));
   text += folds_text(report.local.folds);
   if (!report.local.undecided.empty()) {
-    text += fmt::format("  undecided in {} boxes\n", report.local.undecided.size());
+    const glm::dvec3& first = report.local.undecided.front().rest;
+    text += fmt::format("  undecided in {} boxes, the first at rest point ({}, {}, {})\n",
+                        report.local.undecided.size(), first.x, first.y, first.z);
   }
   if (!report.boundary.crossings.empty()) {
     const BoundaryCrossing& first = report.boundary.crossings.front();

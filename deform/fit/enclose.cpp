@@ -6,7 +6,9 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <memory>
+#include <optional>
 
+#include "deform/fit/node_check.h"
 #include "lattice/core/parallel.h"
 #include "lattice/subdivision/freeze.h"
 #include "lattice/topology/sharpness.h"
@@ -27,6 +29,12 @@ std::size_t n_sharp_edges(const CellComplex& complex, VertexId vertex, const Sha
       edges.begin(), edges.end(), [&](EdgeId edge) { return sharpness.edges[edge] > 0; }));
 }
 
+bool is_sharp_throughout(const CellComplex& complex, VertexId vertex, const Sharpness& sharpness) {
+  return std::ranges::all_of(complex.edges(vertex), [&](EdgeId edge) {
+    return !complex.is_boundary(edge) || sharpness.edges[edge] > 0;
+  });
+}
+
 /// Makes the boundary edges at a vertex sharp; those that were not.
 std::vector<EdgeId> sharpen(const CellComplex& complex, VertexId vertex, Sharpness& sharpness) {
   std::vector<EdgeId> changed;
@@ -37,6 +45,22 @@ std::vector<EdgeId> sharpen(const CellComplex& complex, VertexId vertex, Sharpne
     }
   }
   return changed;
+}
+
+/// Makes the boundary edges at some vertices sharp, and at those where that makes corners. Where
+/// another sharp edge ends, a third one makes a corner, which may fold just as well.
+void sharpen_corners(const CellComplex& complex, std::vector<VertexId> waiting,
+                     Sharpness& sharpness) {
+  while (!waiting.empty()) {
+    const VertexId vertex = waiting.back();
+    waiting.pop_back();
+    for (const EdgeId edge : sharpen(complex, vertex, sharpness)) {
+      const VertexId end = complex.other_end(edge, vertex);
+      if (n_sharp_edges(complex, end, sharpness) > 2) {
+        waiting.push_back(end);
+      }
+    }
+  }
 }
 
 SubdivisionLattice lattice_of(const GridCells& cells) {
@@ -50,17 +74,7 @@ SubdivisionLattice lattice_of(const GridCells& cells) {
       waiting.push_back(vertex);
     }
   }
-  // Where another sharp edge ends, a third one makes a corner, which may fold just as well.
-  while (!waiting.empty()) {
-    const VertexId vertex = waiting.back();
-    waiting.pop_back();
-    for (const EdgeId edge : sharpen(*lattice.complex, vertex, lattice.sharpness)) {
-      const VertexId end = lattice.complex->other_end(edge, vertex);
-      if (n_sharp_edges(*lattice.complex, end, lattice.sharpness) > 2) {
-        waiting.push_back(end);
-      }
-    }
-  }
+  sharpen_corners(*lattice.complex, std::move(waiting), lattice.sharpness);
   return lattice;
 }
 
@@ -135,7 +149,8 @@ class Encloser {
       place();
       is_lowered_.assign(share_.size(), 0);
       lacking_.clear();
-      const bool is_sound = lower_folded_cells() && lower_lost_probes() && lower_defects();
+      const bool is_sound =
+          lower_folded_cells() && lower_lost_probes() && lower_defects() && mend_nodes();
       if (is_sound || !lacking_.empty()) {
         return {std::move(lattice_), std::move(lacking_)};
       }
@@ -149,7 +164,10 @@ class Encloser {
       const glm::dvec3& home = cells_.mesh.points[i];
       lattice_.rest[i] = share_[i] == 0 ? home : home + (relaxed_[i] - home) * share_[i];
     }
-    volume_ = freeze_uniform(lattice_, kLevels);
+    if (!tables_) {
+      tables_ = uniform_tables(lattice_, kLevels);
+    }
+    volume_ = Volume(*tables_, lattice_.rest);
   }
 
   /// Takes vertices of a cell, or, if these are home, of its neighbours, nearer home; each once a
@@ -283,6 +301,37 @@ class Encloser {
     return lower_all(is_wrong);
   }
 
+  /// Where refined cells fold at creases: all edges there become sharp, or else vertices go home.
+  bool mend_nodes() {
+    if (!nodes_) {
+      nodes_.emplace(lattice_);
+    }
+    const CellComplex& complex = *lattice_.complex;
+    const std::vector<char> is_folded = nodes_->folded(lattice_.rest);
+    std::vector<VertexId> smooth;
+    std::vector<char> is_wrong(cells_.elements.size(), 0);
+    for (const VertexId vertex : complex.vertices()) {
+      if (is_folded[vertex.index()] == 0) {
+        continue;
+      }
+      if (!is_sharp_throughout(complex, vertex, lattice_.sharpness)) {
+        smooth.push_back(vertex);
+        continue;
+      }
+      for (const CellId cell : complex.cells(vertex)) {
+        is_wrong[cell.index()] = 1;
+      }
+    }
+    if (smooth.empty()) {
+      return lower_all(is_wrong);
+    }
+    sharpen_corners(complex, std::move(smooth), lattice_.sharpness);
+    tables_.reset();
+    nodes_.reset();
+    std::fill(is_waiting_.begin(), is_waiting_.end(), char{1});
+    return false;
+  }
+
   /// Probes whose surroundings moved are looked at again.
   void wake_probes() {
     const CellComplex& complex = *lattice_.complex;
@@ -322,6 +371,8 @@ class Encloser {
   std::vector<char> is_waiting_;       // #probes: not known to be inside
   std::vector<std::int32_t> cell_of_;  // #elements
   std::vector<std::size_t> lacking_;
+  std::optional<VolumeTables> tables_;  // of the lattice's cells and sharpness
+  std::optional<NodeCheck> nodes_;      // of the same
   Volume volume_;
 };
 

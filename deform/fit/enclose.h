@@ -24,8 +24,9 @@ struct Enclosure {
 /// Relaxes the cells' boundary and evens out their inside, but only so far that all probes stay
 /// inside the volume and no cell folds: where one would not, the vertices go back to their places
 /// in the grid by halves, in three steps at most, so that this ends. Volume here is the lattice
-/// refined twice, with cells of positive determinants. probes: points in the cells, model units.
-/// Throws Cancelled. The same for any number of threads.
+/// refined twice, with cells of positive determinants, at creases as often as freezing may
+/// (NodeCheck): edges there become sharp where that helps. probes: points in the cells, model
+/// units. Throws Cancelled. The same for any number of threads.
 [[nodiscard]] Enclosure enclose(const GridCells& cells, const GridFrame& frame,
                                 std::span<const glm::dvec3> probes, const Progress& progress = {});
 

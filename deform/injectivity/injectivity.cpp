@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "deform/injectivity/dominance.h"
@@ -21,6 +22,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnit = std::numeric_limits<double>::epsilon();
 constexpr std::size_t kRestBoxes = 200;
+/// A patch whose determinant may be zero is flat if rounding is so small beside the box of its
+/// derivatives; else its sign is not known.
+constexpr double kFlatness = 1e-6;
 
 double value_at(const BoundedPolynomial& polynomial, const glm::dvec3& uvw) {
   std::array<std::vector<double>, 3> bases;
@@ -55,6 +59,24 @@ bool is_parallel(std::span<const glm::dvec3> motion) {
     }
   }
   return true;
+}
+
+/// The longest derivatives along the axes of a patch multiplied: what a determinant may be.
+double box_of_derivatives(const BezierPatch& patch) {
+  double product = 1;
+  std::size_t stride = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto size = static_cast<std::size_t>(patch.degree[axis]) + 1;
+    double longest = 0;
+    for (std::size_t i = 0; i + stride < patch.points.size(); ++i) {
+      if (i / stride % size + 1 < size) {
+        longest = std::max(longest, glm::distance(patch.points[i], patch.points[i + stride]));
+      }
+    }
+    product *= patch.degree[axis] * longest;
+    stride *= size;
+  }
+  return product;
 }
 
 /// None if all are equal: equal weights cancel.
@@ -108,6 +130,13 @@ InjectivityCheck::Workspace& InjectivityCheck::workspace() {
   return space;
 }
 
+/// A place in workspace().rest, not seen in a mirror.
+glm::dvec3 InjectivityCheck::rest_place(const glm::dvec3& uvw) const {
+  glm::dvec3 place = workspace().rest.value(uvw);
+  place.x = is_mirrored_ ? -place.x : place.x;
+  return place;
+}
+
 InjectivityCheck::InjectivityCheck(std::shared_ptr<const Volume> volume)
     : volume_(std::move(volume)) {
   // A point sums up its row of stencils, then three rows of extractions.
@@ -156,13 +185,18 @@ void InjectivityCheck::check_rest(std::size_t i) {
   find_determinant(space.rest, *rest_, collapse_of(i, *rest_), space.polynomial);
   const auto [least, most] = std::minmax_element(space.polynomial.coefficients.begin(),
                                                  space.polynomial.coefficients.end());
-  const bool is_singular = *least >= -space.polynomial.error && *most <= space.polynomial.error;
+  const double error = space.polynomial.error;
+  const double size = rest_->weights.empty() ? box_of_derivatives(space.rest) : 0;
+  const bool is_singular =
+      *least >= -error && *most <= error && (size == 0 || !(error > kFlatness * size));
   const Positivity found = positivity(space.polynomial, kRestBoxes);
   if (found.verdict == Verdict::Folded || is_singular) {
+    const glm::dvec3 place = rest_place(found.witness);
     throw LatticeError(fmt::format(
-        "the lattice at rest is {} in patch {} at (u, v, w) = ({}, {}, {}): it must "
-        "be one-to-one at rest to tell where a pose folds",
-        is_singular ? "singular" : "folded", i, found.witness.x, found.witness.y, found.witness.z));
+        "the lattice at rest is {} at ({}, {}, {}), in patch {} at (u, v, w) = ({}, {}, {}): it "
+        "must be one-to-one at rest to tell where a pose folds",
+        is_singular ? "singular" : "folded", place.x, place.y, place.z, i, found.witness.x,
+        found.witness.y, found.witness.z));
   }
   is_rest_certain_[i] = found.verdict == Verdict::Certified ? 1 : 0;
 }
@@ -239,14 +273,12 @@ void InjectivityCheck::check_patch(std::size_t i, const Frame& pose, std::size_t
     find_determinant(space.rest, *rest_, collapse, space.polynomial);
     const double ratio =
         weight_at(space.rest, found.witness) / weight_at(space.pose, found.witness);
-    glm::dvec3 place = space.rest.value(found.witness);
-    place.x = is_mirrored_ ? -place.x : place.x;
     out.folds.push_back(
-        {i, found.witness, place,
+        {i, found.witness, rest_place(found.witness),
          found.value / value_at(space.polynomial, found.witness) * std::pow(ratio, 4)});
   }
   for (const ParameterBox& box : found.undecided) {
-    out.undecided.push_back({i, box});
+    out.undecided.push_back({i, box, rest_place(0.5 * (box.low + box.high))});
   }
 }
 

@@ -7,8 +7,9 @@
 /// det ∂X_pose/∂(u,v,w) has the sign it has at rest, so that x → x' is locally injective there. The
 /// sliver beyond a leaf's cube that it may hold points in (kLeafReach) and the seams where leaves
 /// meet only nearly are not. Factors that vanish at collapsed faces, such as (1 − w)² of pyramids,
-/// are divided out. Where a lattice is singular at rest, at a point of the boundary say, it stays
-/// undecided. A rational patch is certified by its homogeneous points, without division.
+/// are divided out. Where a lattice is singular at rest, at a point of the boundary say, or where
+/// rounding hides whether it is, it stays undecided. A rational patch is certified by its
+/// homogeneous points, without division.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -46,6 +47,7 @@ struct Fold {
 struct UndecidedBox {
   std::size_t patch;
   ParameterBox box;
+  glm::dvec3 rest;  ///< the place of its middle at rest, model units
 };
 
 /// What is known of the patches of a pose.
@@ -74,8 +76,9 @@ struct SafeStepOptions {
 /// Checks poses of one volume. Made once: O(#patches).
 class InjectivityCheck {
  public:
-  /// Throws LatticeError, naming a patch, if the lattice at rest is folded or singular throughout a
-  /// patch: then there is nothing to compare with. No volume: its patches are used by every call.
+  /// Throws LatticeError, naming the place, if the lattice at rest is folded, or flat throughout a
+  /// patch by more than rounding may make it so: then there is nothing to compare with. No volume:
+  /// its patches are used by every call.
   explicit InjectivityCheck(std::shared_ptr<const Volume> volume);
 
   /// Of all patches, or of those listed. most_boxes: parts of a patch that may be looked at. Throws
@@ -109,6 +112,7 @@ class InjectivityCheck {
   void find_moving_determinant(std::size_t i, const Frame& start, const Frame& moves,
                                bool is_parallel) const;
   [[nodiscard]] Collapse collapse_of(std::size_t i, const Frame& pose) const;
+  [[nodiscard]] glm::dvec3 rest_place(const glm::dvec3& uvw) const;
   void check_rest(std::size_t i);
   void check_patch(std::size_t i, const Frame& pose, std::size_t most_boxes,
                    LocalInjectivity& out) const;

@@ -17,6 +17,18 @@ namespace {
 
 constexpr int kMostLayers = 10000;
 
+void check_distinct(std::span<const std::int32_t> loop, const std::string& name, std::size_t face) {
+  VertexLoop sorted(loop.begin(), loop.end());
+  std::sort(sorted.begin(), sorted.end());
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end()) {
+    throw LatticeError(fmt::format(
+        "{}: face {} has point {} twice; the points of a face must differ: remove the face, or "
+        "make two of it",
+        name, face, *twice));
+  }
+}
+
 void check_faces(const CompressedRows<std::int32_t>& faces, std::size_t n_points,
                  const std::string& name) {
   if (faces.empty()) {
@@ -34,6 +46,7 @@ void check_faces(const CompressedRows<std::int32_t>& faces, std::size_t n_points
                              std::to_string(n_points));
       }
     }
+    check_distinct(faces[face], name, face);
   }
 }
 
@@ -222,6 +235,12 @@ CellMesh thicken(std::span<const glm::dvec3> points, const CompressedRows<std::i
 
 CellMesh solid(std::span<const glm::dvec3> points, const CompressedRows<std::int32_t>& faces) {
   check_faces(faces, points.size(), "solid");
+  if (faces.n_rows() > kMostSolidFaces) {
+    throw ParameterError(fmt::format(
+        "solid: the mesh has {} faces, one cell may have at most {}: draw a coarser cage, or make "
+        "many cells: --wrap N round the whole mesh, --thicken t along its surface",
+        faces.n_rows(), kMostSolidFaces));
+  }
   check_closed(faces);
   UsedPart used = used_part(points, faces);
   const auto n_faces = static_cast<std::uint32_t>(used.faces.n_rows());

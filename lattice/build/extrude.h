@@ -32,8 +32,13 @@ namespace espalier {
                                const CompressedRows<std::int32_t>& faces, double thickness,
                                int layers);
 
+/// Most faces of the one cell that solid() makes: all its control points move all of its inside,
+/// and freezing it takes the square of their number.
+inline constexpr std::size_t kMostSolidFaces = 500;
+
 /// The inside of a closed surface mesh as one cell. Points no face uses are left out. Throws
-/// ParameterError as extrude(), LatticeError naming an edge without exactly two faces.
+/// ParameterError as extrude() and for more than kMostSolidFaces, LatticeError naming an edge
+/// without exactly two faces.
 [[nodiscard]] CellMesh solid(std::span<const glm::dvec3> points,
                              const CompressedRows<std::int32_t>& faces);
 

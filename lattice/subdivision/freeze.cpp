@@ -82,6 +82,11 @@ StencilTable with_centroids(const StencilTable& table, const CellComplex& comple
 }  // namespace
 
 Volume freeze_uniform(const SubdivisionLattice& lattice, int levels, const Progress& progress) {
+  return {uniform_tables(lattice, levels, progress), lattice.rest};
+}
+
+VolumeTables uniform_tables(const SubdivisionLattice& lattice, int levels,
+                            const Progress& progress) {
   if (levels < 1 || levels > kMostLevels) {
     throw ParameterError("freeze: uniform levels is " + std::to_string(levels) + ", must be 1 to " +
                          std::to_string(kMostLevels));
@@ -105,11 +110,10 @@ Volume freeze_uniform(const SubdivisionLattice& lattice, int levels, const Progr
   if (!split_cells.empty()) {
     stencils = with_centroids(stencils, complex, split_cells);
   }
-  return Volume({std::move(stencils),
-                 {bezier_extraction(1)},
-                 std::move(leaves.patches),
-                 CompressedRows<std::int32_t>::uniform(8, std::move(leaves.points))},
-                lattice.rest);
+  return {std::move(stencils),
+          {bezier_extraction(1)},
+          std::move(leaves.patches),
+          CompressedRows<std::int32_t>::uniform(8, std::move(leaves.points))};
 }
 
 }  // namespace espalier

@@ -16,6 +16,10 @@ namespace espalier {
 [[nodiscard]] Volume freeze_uniform(const SubdivisionLattice& lattice, int levels,
                                     const Progress& progress = {});
 
+/// What freeze_uniform() makes without the control points' places: for shaping one lattice.
+[[nodiscard]] VolumeTables uniform_tables(const SubdivisionLattice& lattice, int levels,
+                                          const Progress& progress = {});
+
 /// Without a gradient tolerance of its own, ∂x'/∂x is to be within this many tolerances.
 inline constexpr double kGradientToleranceFactor = 1000;
 

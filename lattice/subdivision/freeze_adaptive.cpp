@@ -96,11 +96,20 @@ class LevelFreezer {
   }
 
   /// Freezes what refinement has left.
-  void freeze_leaf(CellId cell) {
-    if (hexahedra_.is_hexahedron(cell)) {
-      add_trilinear(cell);
-    } else {
-      add_pyramids(cell);
+  void freeze_leaves(std::span<const CellId> cells) {
+    std::vector<CellId> others;
+    std::ranges::copy_if(cells, std::back_inserter(others),
+                         [&](CellId cell) { return !hexahedra_.is_hexahedron(cell); });
+    const std::vector<VertexCombination> apexes =
+        others.empty() ? std::vector<VertexCombination>()
+                       : limits_of_cell_points(complex_, sharpness_, scheme_, others);
+    auto apex = apexes.begin();
+    for (const CellId cell : cells) {
+      if (hexahedra_.is_hexahedron(cell)) {
+        add_trilinear(cell);
+      } else {
+        add_pyramids(cell, volume_.add_point(*apex++));
+      }
     }
   }
 
@@ -271,7 +280,7 @@ class LevelFreezer {
         for (std::size_t k = 0; k < row.indices.size(); ++k) {
           combination.emplace_back(layer[static_cast<std::size_t>(row.indices[k])], row.weights[k]);
         }
-        points.push_back(volume_.add_point(std::move(combination)));
+        points.push_back(volume_.add_point(combination));
       }
     }
     return points;
@@ -337,8 +346,7 @@ class LevelFreezer {
       return found->second;
     }
     auto limit = limit_position(hexahedra_, sharpness_, scheme_, vertex);
-    const std::int32_t point =
-        limit ? volume_.add_point(*std::move(limit)) : volume_.vertex_point(vertex);
+    const std::int32_t point = limit ? volume_.add_point(*limit) : volume_.vertex_point(vertex);
     limit_points_.emplace(vertex, point);
     return point;
   }
@@ -354,10 +362,8 @@ class LevelFreezer {
     volume_.add_patch(patch, block);
   }
 
-  void add_pyramids(CellId cell) {
+  void add_pyramids(CellId cell, std::int32_t apex) {
     const std::uint16_t linear = volume_.extraction(bezier_extraction(1));
-    const std::int32_t apex =
-        volume_.add_point(limit_of_cell_point(complex_, sharpness_, scheme_, cell));
     for (const HalfFaceId base : complex_.half_faces(cell)) {
       const std::vector<VertexId> corners = loop(complex_, base);
       Patch patch{{linear, linear, linear}, 0, true, true};
@@ -383,17 +389,6 @@ class LevelFreezer {
       layer_points_;
   std::map<VertexId, std::int32_t> limit_points_;
 };
-
-/// Rows of some vertices of a level.
-StencilTable rows_of(const StencilTable& table, const std::vector<VertexId>& vertices) {
-  return StencilTable::build(vertices.size(), table.n_controls(),
-                             [&](std::size_t i, StencilRow& row) {
-                               const StencilTable::Row source = table[vertices[i].index()];
-                               for (std::size_t k = 0; k < source.indices.size(); ++k) {
-                                 row.add(source.indices[k], source.weights[k]);
-                               }
-                             });
-}
 
 StencilTable identity(std::size_t n) {
   return StencilTable::build(
@@ -487,9 +482,7 @@ Volume freeze_adaptive(const SubdivisionLattice& lattice, const AdaptiveOptions&
         tell_errors(volume, options, freezer.leaf_error(rest) * std::pow(kRefinementRate, level),
                     level);
       }
-      for (const CellId cell : rest) {
-        freezer.freeze_leaf(cell);
-      }
+      freezer.freeze_leaves(rest);
       break;
     }
     if (rest.empty()) {

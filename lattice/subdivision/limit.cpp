@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "lattice/core/parallel.h"
 #include "lattice/osd/crease_masks.h"
 #include "lattice/subdivision/refine.h"
 #include "lattice/subdivision/sub_complex.h"
@@ -235,14 +236,36 @@ std::optional<VertexCombination> limit_position(const Hexahedra& hexahedra,
   return at_node(complex, sharpness, scheme, vertex);
 }
 
-VertexCombination limit_of_cell_point(const CellComplex& complex, const Sharpness& sharpness,
-                                      Scheme scheme, CellId cell) {
-  const std::vector<CellId> around = with_neighbours(complex, std::array{cell});
-  const SubComplex part = cut_out(complex, sharpness, around);
+std::vector<VertexCombination> limits_of_cell_points(const CellComplex& complex,
+                                                     const Sharpness& sharpness, Scheme scheme,
+                                                     std::span<const CellId> cells) {
+  const SubComplex part = cut_out(complex, sharpness, with_neighbours(complex, cells));
   const Refinement refinement = refine(part.complex, part.sharpness, scheme);
-  const VertexId point = refinement.parents.cell_point(CellId{0});
-  return pulled_back(at_node(*refinement.complex, refinement.sharpness, scheme, point),
-                     refinement.stencils, part);
+  std::vector<VertexCombination> result(cells.size());
+  parallel_for(
+      cells.size(),
+      [&](std::size_t i) {  // with_neighbours() keeps the cells in front
+        const CellId cell{static_cast<std::int32_t>(i)};
+        result[i] = at_node(*refinement.complex, refinement.sharpness, scheme,
+                            refinement.parents.cell_point(cell));
+      },
+      16);
+  const StencilTable limits = compose(
+      refinement.stencils, StencilTable::build(cells.size(), refinement.complex->n_vertices(),
+                                               [&](std::size_t i, StencilRow& row) {
+                                                 for (const auto& [vertex, weight] : result[i]) {
+                                                   row.add(vertex.value, weight);
+                                                 }
+                                               }));
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const StencilTable::Row row = limits[i];
+    result[i].clear();
+    for (std::size_t k = 0; k < row.indices.size(); ++k) {
+      result[i].emplace_back(part.vertices[static_cast<std::size_t>(row.indices[k])],
+                             row.weights[k]);
+    }
+  }
+  return result;
 }
 
 }  // namespace espalier

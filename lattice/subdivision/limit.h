@@ -3,6 +3,7 @@
 /// Where the vertices of a Catmull-Clark lattice converge to.
 
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -24,9 +25,11 @@ using VertexCombination = std::vector<std::pair<VertexId, double>>;
                                                               const Sharpness& sharpness,
                                                               Scheme scheme, VertexId vertex);
 
-/// The limit position of the point that refinement puts into a cell.
-[[nodiscard]] VertexCombination limit_of_cell_point(const CellComplex& complex,
-                                                    const Sharpness& sharpness, Scheme scheme,
-                                                    CellId cell);
+/// The limit positions of the points that refinement puts into some cells. O(size of the cells and
+/// those that share vertices with them), so that many at once cost less than one by one.
+[[nodiscard]] std::vector<VertexCombination> limits_of_cell_points(const CellComplex& complex,
+                                                                   const Sharpness& sharpness,
+                                                                   Scheme scheme,
+                                                                   std::span<const CellId> cells);
 
 }  // namespace espalier

@@ -261,13 +261,7 @@ class SectionBuilder {
     });
     SubComplex sub = cut_out(*refinement.complex, refinement.sharpness, around);
     Level next;
-    next.points = StencilTable::build(
-        sub.vertices.size(), points.n_controls(), [&](std::size_t i, StencilRow& row) {
-          const StencilTable::Row source = points[sub.vertices[i].index()];
-          for (std::size_t k = 0; k < source.indices.size(); ++k) {
-            row.add(source.indices[k], source.weights[k]);
-          }
-        });
+    next.points = rows_of(points, sub.vertices);
     for (std::size_t i = 0; i < children.size(); ++i) {
       children[i].frame.cell = CellId{static_cast<std::int32_t>(i)};
       for (VertexId& corner : children[i].frame.corners) {

@@ -65,6 +65,16 @@ SubComplex cut_out(const CellComplex& complex, const Sharpness& sharpness,
   return sub;
 }
 
+StencilTable rows_of(const StencilTable& table, std::span<const VertexId> vertices) {
+  return StencilTable::build(vertices.size(), table.n_controls(),
+                             [&](std::size_t i, StencilRow& row) {
+                               const StencilTable::Row source = table[vertices[i].index()];
+                               for (std::size_t k = 0; k < source.indices.size(); ++k) {
+                                 row.add(source.indices[k], source.weights[k]);
+                               }
+                             });
+}
+
 std::vector<CellId> with_neighbours(const CellComplex& complex, std::span<const CellId> cells) {
   std::vector<CellId> result(cells.begin(), cells.end());
   std::vector<CellId> taken = result;

@@ -8,6 +8,7 @@
 
 #include "lattice/topology/cell_complex.h"
 #include "lattice/topology/sharpness.h"
+#include "lattice/volume/stencil_table.h"
 
 namespace espalier {
 
@@ -22,6 +23,9 @@ struct SubComplex {
 /// Cuts out cells. O(size of the cells).
 [[nodiscard]] SubComplex cut_out(const CellComplex& complex, const Sharpness& sharpness,
                                  std::span<const CellId> cells);
+
+/// The rows of some vertices of the complex that a table has a row a vertex of.
+[[nodiscard]] StencilTable rows_of(const StencilTable& table, std::span<const VertexId> vertices);
 
 /// The cells that share a vertex with one of `cells`, these first and in their order.
 [[nodiscard]] std::vector<CellId> with_neighbours(const CellComplex& complex,

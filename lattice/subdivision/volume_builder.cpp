@@ -1,6 +1,7 @@
 #include "lattice/subdivision/volume_builder.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace espalier {
 
@@ -17,9 +18,10 @@ std::int32_t VolumeBuilder::vertex_point(VertexId vertex) {
   return number;
 }
 
-std::int32_t VolumeBuilder::add_point(VertexCombination combination) {
-  points_.push_back({levels_.size() - 1, std::move(combination)});
-  return static_cast<std::int32_t>(points_.size()) - 1;
+std::int32_t VolumeBuilder::add_point(const VertexCombination& combination) {
+  point_levels_.push_back(static_cast<std::uint8_t>(levels_.size() - 1));
+  points_.push_back(combination);
+  return static_cast<std::int32_t>(points_.n_rows()) - 1;
 }
 
 std::uint16_t VolumeBuilder::extraction(const Extraction& extraction) {
@@ -39,9 +41,9 @@ void VolumeBuilder::add_patch(const Patch& patch, std::span<const std::int32_t> 
 
 Volume VolumeBuilder::build(std::vector<glm::dvec3> rest_controls) && {
   tables_.stencils = StencilTable::build(
-      points_.size(), rest_controls.size(), [&](std::size_t i, StencilRow& row) {
-        const StencilTable& level = *levels_[points_[i].level];
-        for (const auto& [vertex, weight] : points_[i].combination) {
+      points_.n_rows(), rest_controls.size(), [&](std::size_t i, StencilRow& row) {
+        const StencilTable& level = *levels_[point_levels_[i]];
+        for (const auto& [vertex, weight] : std::as_const(points_)[i]) {
           const StencilTable::Row source = level[vertex.index()];
           for (std::size_t k = 0; k < source.indices.size(); ++k) {
             row.add(source.indices[k], weight * source.weights[k]);

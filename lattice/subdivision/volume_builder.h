@@ -3,11 +3,13 @@
 /// Collects the tables of a volume while levels of refinement come and go.
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "lattice/core/compressed_rows.h"
 #include "lattice/subdivision/limit.h"
 #include "lattice/volume/volume.h"
 
@@ -23,7 +25,7 @@ class VolumeBuilder {
   /// The number of a vertex of the current level as a point, the same at every call.
   [[nodiscard]] std::int32_t vertex_point(VertexId vertex);
   /// The number of a further point of the current level.
-  [[nodiscard]] std::int32_t add_point(VertexCombination combination);
+  [[nodiscard]] std::int32_t add_point(const VertexCombination& combination);
 
   /// The number of an extraction in the shared table.
   [[nodiscard]] std::uint16_t extraction(const Extraction& extraction);
@@ -40,14 +42,10 @@ class VolumeBuilder {
   [[nodiscard]] Volume build(std::vector<glm::dvec3> rest_controls) &&;
 
  private:
-  struct Point {
-    std::size_t level;
-    VertexCombination combination;
-  };
-
   std::vector<std::shared_ptr<const StencilTable>> levels_;
-  std::vector<std::int32_t> numbers_;  // of the current level's vertices, -1 none yet
-  std::vector<Point> points_;
+  std::vector<std::int32_t> numbers_;       // of the current level's vertices, -1 none yet
+  std::vector<std::uint8_t> point_levels_;  // #points
+  CompressedRows<std::pair<VertexId, double>> points_;  // #points: combinations
   VolumeTables tables_;
 };
 

@@ -12,7 +12,9 @@
 namespace espalier {
 namespace {
 
-constexpr std::size_t kRowsPerRange = 2048;
+constexpr std::size_t kRowsPerRange = 512;
+constexpr std::size_t kRangesPerWave = 64;
+constexpr std::size_t kSampleStep = 61;  // of rows that tell how long the others will be
 constexpr std::size_t kProductsPerRange = 4096;
 
 /// The rows of one range, before they are joined.
@@ -20,6 +22,12 @@ struct Block {
   std::vector<std::uint32_t> lengths;
   std::vector<std::int32_t> indices;
   std::vector<double> weights;
+
+  void clear() {
+    lengths.clear();
+    indices.clear();
+    weights.clear();
+  }
 };
 
 glm::dvec3 weighted_sum(const StencilTable::Row& row, std::span<const glm::dvec3> controls) {
@@ -44,44 +52,56 @@ void StencilRow::reset(std::size_t n_controls) {
   }
 }
 
+void StencilRow::finish(std::vector<std::int32_t>& indices, std::vector<double>& weights) {
+  std::sort(touched_.begin(), touched_.end());
+  for (const std::int32_t index : touched_) {
+    const double weight = weights_[static_cast<std::size_t>(index)];
+    if (weight != 0) {
+      indices.push_back(index);
+      weights.push_back(weight);
+    }
+  }
+}
+
 StencilTable StencilTable::build(std::size_t n_rows, std::size_t n_controls,
                                  const std::function<void(std::size_t, StencilRow&)>& fill) {
-  std::vector<Block> blocks((n_rows + kRowsPerRange - 1) / kRowsPerRange);
-  parallel_ranges(n_rows, kRowsPerRange, [&](std::size_t begin, std::size_t end) {
-    Block& block = blocks[begin / kRowsPerRange];
+  const auto fill_rows = [&](std::size_t begin, std::size_t end, std::size_t step, Block& block) {
     thread_local StencilRow row;  // as large as the widest table so far; cleared row by row
-    for (std::size_t i = begin; i < end; ++i) {
+    block.clear();
+    for (std::size_t i = begin; i < end; i += step) {
       row.reset(n_controls);
       fill(i, row);
-      std::sort(row.touched_.begin(), row.touched_.end());
       const std::size_t length_before = block.indices.size();
-      for (const std::int32_t index : row.touched_) {
-        const double weight = row.weights_[static_cast<std::size_t>(index)];
-        if (weight != 0) {
-          block.indices.push_back(index);
-          block.weights.push_back(weight);
-        }
-      }
+      row.finish(block.indices, block.weights);
       block.lengths.push_back(static_cast<std::uint32_t>(block.indices.size() - length_before));
     }
-  });
+  };
   StencilTable table;
   table.n_controls_ = n_controls;
   table.offsets_.reserve(n_rows + 1);
-  std::size_t n_weights = 0;
-  for (const Block& block : blocks) {
-    n_weights += block.indices.size();
+  std::vector<Block> blocks(std::min(kRangesPerWave, n_rows / kRowsPerRange + 1));
+  if (n_rows > blocks.size() * kRowsPerRange) {  // or growing would take as much memory again
+    fill_rows(0, n_rows, kSampleStep, blocks[0]);
+    const double n_expected =
+        1.05 * static_cast<double>(kSampleStep) * static_cast<double>(blocks[0].indices.size());
+    table.indices_.reserve(static_cast<std::size_t>(n_expected));
+    table.weights_.reserve(static_cast<std::size_t>(n_expected));
   }
-  static_cast<void>(row_offset(n_weights));
-  table.indices_.reserve(n_weights);
-  table.weights_.reserve(n_weights);
-  for (Block& block : blocks) {
-    for (const std::uint32_t length : block.lengths) {
-      table.offsets_.push_back(table.offsets_.back() + length);
+  const std::size_t wave = blocks.size() * kRowsPerRange;
+  for (std::size_t first = 0; first < n_rows; first += wave) {
+    const std::size_t n = std::min(wave, n_rows - first);
+    parallel_ranges(n, kRowsPerRange, [&](std::size_t begin, std::size_t end) {
+      fill_rows(first + begin, first + end, 1, blocks[begin / kRowsPerRange]);
+    });
+    for (std::size_t i = 0; i * kRowsPerRange < n; ++i) {
+      const Block& block = blocks[i];
+      static_cast<void>(row_offset(table.indices_.size() + block.indices.size()));
+      for (const std::uint32_t length : block.lengths) {
+        table.offsets_.push_back(table.offsets_.back() + length);
+      }
+      table.indices_.insert(table.indices_.end(), block.indices.begin(), block.indices.end());
+      table.weights_.insert(table.weights_.end(), block.weights.begin(), block.weights.end());
     }
-    table.indices_.insert(table.indices_.end(), block.indices.begin(), block.indices.end());
-    table.weights_.insert(table.weights_.end(), block.weights.begin(), block.weights.end());
-    block = {};
   }
   return table;
 }

@@ -26,6 +26,8 @@ class StencilRow {
  private:
   friend class StencilTable;
   void reset(std::size_t n_controls);
+  /// Appends what does not sum to exactly zero, indices ascending.
+  void finish(std::vector<std::int32_t>& indices, std::vector<double>& weights);
 
   std::vector<double> weights_;
   std::vector<char> is_touched_;

@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 
 #include "deform/embed/embed.h"
+#include "deform/injectivity/boundary.h"
 #include "deform/injectivity/injectivity.h"
 #include "deform/model/model_file.h"
 #include "lattice/core/box.h"
@@ -49,13 +52,12 @@ std::size_t n_parts(const CellComplex& complex) {
   return n;
 }
 
-/// What every wrap must be: valid, with each point inside, and certified one-to-one at rest.
-void expect_sound(const Wrap& wrapped, const Model& model, const std::string& what,
-                  double tolerance = 1e-3) {
+/// What every wrap must be: valid, with each point inside, and certified one-to-one at rest, as
+/// finely as lattices are frozen.
+void expect_sound(const Wrap& wrapped, const Model& model, const std::string& what) {
   const SubdivisionLattice& lattice = wrapped.lattice;
   EXPECT_TRUE(validate(lattice.complex->polyhedra(), lattice.rest).empty()) << what;
-  const auto volume =
-      std::make_shared<const Volume>(freeze_adaptive(lattice, {.tolerance = tolerance}));
+  const auto volume = std::make_shared<const Volume>(freeze_adaptive(lattice));
   const StatusCounts counts = embed(*volume, model.points()).counts();
   EXPECT_EQ(counts.inside, model.points().size()) << what;
   try {
@@ -64,6 +66,15 @@ void expect_sound(const Wrap& wrapped, const Model& model, const std::string& wh
   } catch (const LatticeError& error) {
     ADD_FAILURE() << what << ": " << error.what();
   }
+}
+
+/// The same, and a boundary that does not meet itself: injective, as a whole.
+void expect_injective(const Wrap& wrapped, const Model& model, const std::string& what) {
+  expect_sound(wrapped, model, what);
+  const Volume volume = freeze_adaptive(wrapped.lattice);
+  const BoundaryReport boundary = check_boundary(volume, wrapped.lattice.rest);
+  EXPECT_EQ(boundary.verdict, BoundaryVerdict::Simple)
+      << what << ": " << boundary.undecided.size() << " pairs undecided";
 }
 
 /// Three limbs on a bar, a hand of sorts: gaps of `gap`.
@@ -100,36 +111,39 @@ Surface comb(double gap) {
   return surface;
 }
 
-TEST(Wrap, encloses_closed_models_and_certifies_at_rest) {
-  const Surface ball = test::sphere_surface({1, 2, 3}, 1, 12);
-  const Surface balls = ball.with(test::sphere_surface({3.1, 2, 3}, 1, 12));
-  const std::vector<std::pair<std::string, Surface>> surfaces = {
-      {"ball", ball},
-      {"two near balls", balls},
-      {"torus", test::torus_surface(2, 0.5, 16)},
-      {"thin plate", test::box_surface({0, 0, 0}, {4, 3, 0.01})},
-      {"comb", comb(0.3)}};
-  for (const auto& [name, surface] : surfaces) {
-    for (const int n : {1, 5}) {
-      const Model model = surface.model();
-      expect_sound(wrap(model, n), model, name + " at " + std::to_string(n));
-    }
+/// Closed models, ours and those of the tests, and cells along their longest side.
+class ClosedModels : public ::testing::TestWithParam<std::tuple<std::string, int>> {
+ protected:
+  static Model model(const std::string& name) {
+    const Surface ball = test::sphere_surface({1, 2, 3}, 1, 12);
+    const std::map<std::string, Surface> surfaces = {
+        {"ball", ball},
+        {"two_near_balls", ball.with(test::sphere_surface({3.1, 2, 3}, 1, 12))},
+        {"torus", test::torus_surface(2, 0.5, 16)},
+        {"plate", test::box_surface({0, 0, 0}, {4, 3, 0.01})},
+        {"comb", comb(0.3)}};
+    const auto found = surfaces.find(name);
+    return found == surfaces.end()
+               ? read_model(std::string(ESPALIER_TEST_DATA) + "/" + name + ".obj")
+               : found->second.model();
   }
+};
+
+TEST_P(ClosedModels, are_enclosed_by_wraps_that_are_certified_injective_at_rest) {
+  const auto& [name, n] = GetParam();
+  const Model closed = model(name);
+  expect_injective(wrap(closed, n), closed, name + " at " + std::to_string(n));
 }
 
-TEST(Wrap, encloses_the_closed_models_of_the_tests) {
-  for (const std::string name : {"figure", "disk", "block"}) {
-    const Model model = read_model(std::string(ESPALIER_TEST_DATA) + "/" + name + ".obj");
-    for (const int n : {3, 6}) {
-      expect_sound(wrap(model, n), model, name + " at " + std::to_string(n));
-    }
-  }
-}
-
-TEST(Wrap, stays_certified_however_finely_it_is_frozen) {
-  const Model model = read_model(std::string(ESPALIER_TEST_DATA) + "/figure.obj");
-  expect_sound(wrap(model, 4), model, "figure", 1e-5);
-}
+INSTANTIATE_TEST_SUITE_P(Wrap, ClosedModels,
+                         ::testing::Combine(::testing::Values("ball", "two_near_balls", "torus",
+                                                              "plate", "comb", "figure", "disk",
+                                                              "block"),
+                                            ::testing::Values(1, 3, 5, 8)),
+                         [](const auto& info) {
+                           return std::get<0>(info.param) + "_at_" +
+                                  std::to_string(std::get<1>(info.param));
+                         });
 
 TEST(Wrap, of_a_box_that_fills_its_cells_is_the_box_grid) {
   const Model model = test::box_surface({0, 0, 0}, {4, 2, 1}).model();

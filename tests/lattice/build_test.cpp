@@ -245,6 +245,44 @@ TEST(Solid, of_a_closed_cage_is_one_cell_whose_boundary_is_its_catmull_clark_sur
   }
 }
 
+TEST(Solid, refuses_more_faces_than_one_cell_may_have_and_names_what_to_do) {
+  const CubeSurface cube;
+  Rows faces;
+  for (std::size_t i = 0; i <= kMostSolidFaces; ++i) {
+    faces.push_back(std::array{0, 1, 3});
+  }
+  try {
+    (void)solid(cube.points, faces);
+    FAIL();
+  } catch (const ParameterError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "solid: the mesh has 501 faces, one cell may have at most 500: draw a coarser cage, "
+              "or make many cells: --wrap N round the whole mesh, --thicken t along its surface");
+  }
+}
+
+TEST(FromMeshes, name_a_face_that_uses_a_point_twice) {
+  const CubeSurface cube;
+  const Rows faces = {{0, 1, 3}, {4, 5, 5, 7}};
+  const std::string expected =
+      "face 1 has point 5 twice; the points of a face must differ: remove the face, or make two of "
+      "it";
+  const auto says = [&](const auto& make) -> std::string {
+    try {
+      (void)make();
+    } catch (const LatticeError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(says([&] { return solid(cube.points, faces); }), "solid: " + expected);
+  EXPECT_EQ(says([&] { return thicken(cube.points, faces, 1, 1); }), "thicken: " + expected);
+  EXPECT_EQ(says([&] {
+              return extrude(cube.points, faces, {0, 0, 1}, 1);
+            }),
+            "extrude: " + expected);
+}
+
 TEST(Solid, names_an_edge_where_the_cage_is_open_or_has_more_than_two_faces) {
   const CubeSurface cube;
   const auto says = [&](const Rows& faces) -> std::string {

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <glm/glm.hpp>
 #include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "lattice/build/cells.h"
 #include "lattice/build/extrude_faces.h"
@@ -49,35 +52,53 @@ std::int32_t face_at_height(const SubdivisionLattice& lattice, double z) {
   return -1;
 }
 
-/// Ten thousand edits, a thousand from each seed.
-class RandomEdits : public ::testing::TestWithParam<unsigned> {};
+/// Edits that were done, a thousand from each seed; and those that were refused between them.
+class RandomEdits : public ::testing::TestWithParam<unsigned> {
+ protected:
+  void SetUp() override { set_thread_count(1); }  // small loops, many of them
+  void TearDown() override { set_thread_count(0); }
+};
 
-TEST_P(RandomEdits, leave_a_valid_complex_or_say_why_not_and_the_lattice_before_as_it_was) {
-  set_thread_count(1);  // small loops, many of them
+void expect_sound(const SubdivisionLattice& lattice, bool is_posed, const std::string& what) {
+  const std::size_t n = lattice.complex->n_vertices();
+  EXPECT_TRUE(validate(lattice.complex->polyhedra(), lattice.rest).empty()) << what;
+  EXPECT_EQ(lattice.rest.size(), n);
+  EXPECT_EQ(lattice.pose.size(), is_posed ? n : 0) << what;
+  EXPECT_EQ(lattice.sharpness.edges.size(), lattice.complex->n_edges());
+  EXPECT_EQ(lattice.sharpness.vertices.size(), n);
+}
+
+TEST_P(RandomEdits, a_thousand_done_leave_valid_complexes_and_undo_restores_equal_bytes) {
   std::mt19937 random(GetParam());
   std::map<std::string, int> n_done;
+  // What undo keeps: the lattices before, and what they were when they were made.
+  std::vector<std::pair<SubdivisionLattice, std::string>> before;
   SubdivisionLattice lattice = test::random_seed(random);
-  for (int i = 0; i < 1000; ++i) {
-    const std::string before = json_text(lattice);
+  const auto undo_all = [&] {
+    for (; !before.empty(); before.pop_back()) {
+      EXPECT_EQ(json_text(before.back().first), before.back().second);
+    }
+  };
+  for (int n = 0; n < 1000;) {
     const test::RandomEdit edit = test::random_edit(lattice, random);
-    EXPECT_EQ(json_text(lattice), before) << edit.name;
     if (!edit.refusal.empty()) {
       continue;
     }
+    ++n;
     ++n_done[edit.name];
-    const std::size_t n = edit.result.complex->n_vertices();
-    EXPECT_TRUE(validate(edit.result.complex->polyhedra(), edit.result.rest).empty()) << edit.name;
-    EXPECT_EQ(edit.result.rest.size(), n);
-    EXPECT_EQ(edit.result.pose.size(), lattice.pose.empty() ? 0 : n) << edit.name;
-    EXPECT_EQ(edit.result.sharpness.edges.size(), edit.result.complex->n_edges());
-    EXPECT_EQ(edit.result.sharpness.vertices.size(), n);
-    lattice = edit.result.complex->n_cells() > 20 ? test::random_seed(random) : edit.result;
+    expect_sound(edit.result, !lattice.pose.empty(), edit.name);
+    before.emplace_back(lattice, json_text(lattice));
+    lattice = edit.result;
+    if (lattice.complex->n_cells() > 20) {
+      undo_all();
+      lattice = test::random_seed(random);
+    }
   }
-  for (const char* name :
-       {"extrude", "attach", "split", "transform", "weld", "mirror", "delete", "relax", "merge"}) {
+  undo_all();
+  for (const char* name : {"extrude", "attach", "split", "transform", "weld", "mirror", "delete",
+                           "relax", "merge", "crease"}) {
     EXPECT_GT(n_done[name], 2) << name;
   }
-  set_thread_count(0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomEdits, ::testing::Range(1u, 11u));

@@ -211,8 +211,9 @@ TEST(LimitPosition, of_a_cell_point_is_that_of_the_refined_vertex) {
     }
     ++n_compared;
     glm::dvec3 sum(0);
-    for (const auto& [source, weight] :
-         limit_of_cell_point(*lattice.complex, sharpness, lattice.scheme, cell)) {
+    const auto limit =
+        limits_of_cell_points(*lattice.complex, sharpness, lattice.scheme, std::array{cell});
+    for (const auto& [source, weight] : limit.front()) {
       sum += weight * lattice.rest[source.index()];
     }
     EXPECT_LT(glm::distance(sum, found->second), 1e-14);

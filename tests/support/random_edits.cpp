@@ -13,6 +13,7 @@
 #include "lattice/build/weld.h"
 #include "lattice/core/error.h"
 #include "lattice/subdivision/edit.h"
+#include "lattice/topology/crease.h"
 #include "tests/support/families.h"
 
 namespace espalier::test {
@@ -45,6 +46,27 @@ Indices some_of(std::size_t n, std::size_t most, std::mt19937& random) {
     }
   }
   return indices;
+}
+
+/// Marks some edges and vertices of the boundary, or clears them; of any edge: inner ones are
+/// refused.
+SubdivisionLattice random_crease(SubdivisionLattice lattice, std::mt19937& random) {
+  const CellComplex& complex = *lattice.complex;
+  std::vector<EdgeId> edges;
+  for (const std::int32_t edge : some_of(complex.n_edges(), 4, random)) {
+    edges.push_back(EdgeId{edge});
+  }
+  if (below(3, random) == 0) {
+    edges = boundary_line(complex, edges.front());
+  }
+  std::vector<VertexId> vertices;
+  for (const std::int32_t vertex : some_of(complex.n_vertices(), 2, random)) {
+    vertices.push_back(VertexId{vertex});
+  }
+  const bool is_mark = below(2, random) == 0;
+  lattice.sharpness = with_tags(complex, std::move(lattice.sharpness), edges, vertices,
+                                is_mark ? static_cast<float>(between(0.5, 12, random)) : 0.0F);
+  return lattice;
 }
 
 using MeshEdit = std::function<Edited(const CellMesh&, std::mt19937&)>;
@@ -131,14 +153,19 @@ const std::vector<std::pair<std::string, MeshEdit>>& mesh_edits() {
 
 RandomEdit random_edit(const SubdivisionLattice& lattice, std::mt19937& random) {
   const auto& edits = mesh_edits();
-  const std::size_t kind = below(edits.size() + 1, random);
-  RandomEdit edit{kind < edits.size() ? edits[kind].first : "merge", {}, ""};
+  const std::size_t kind = below(edits.size() + 2, random);
+  const std::string name = kind < edits.size()    ? edits[kind].first
+                           : kind == edits.size() ? "merge"
+                                                  : "crease";
+  RandomEdit edit{name, {}, ""};
   try {
     if (kind < edits.size()) {
       edit.result = edited_lattice(lattice, edits[kind].second(mesh_of(lattice), random));
-    } else {
+    } else if (kind == edits.size()) {
       const glm::dvec3 at = lattice.rest[below(lattice.rest.size(), random)];
       edit.result = merged_lattice(lattice, lattice_from(make_box({1, 1, 1}, at, at + 1.0)), 1e-6);
+    } else {
+      edit.result = random_crease(lattice, random);
     }
   } catch (const Error& error) {
     edit.refusal = error.what();
