@@ -140,9 +140,9 @@ INSTANTIATE_TEST_SUITE_P(Wrap, ClosedModels,
                                                               "plate", "comb", "figure", "disk",
                                                               "block"),
                                             ::testing::Values(1, 3, 5, 8)),
-                         [](const auto& info) {
-                           return std::get<0>(info.param) + "_at_" +
-                                  std::to_string(std::get<1>(info.param));
+                         [](const auto& test) {
+                           return std::get<0>(test.param) + "_at_" +
+                                  std::to_string(std::get<1>(test.param));
                          });
 
 TEST(Wrap, of_a_box_that_fills_its_cells_is_the_box_grid) {
