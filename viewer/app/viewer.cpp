@@ -123,12 +123,15 @@ bool Viewer::stops_task(const Event& event) {
   return key != nullptr && key->chord == "escape";
 }
 
+/// A panel that is new has its size, and is seen, in the frame after.
 bool Viewer::draw_task(std::string_view task, double fraction) {
   const View& view = session_.view();
-  has_shown_task_ = true;
-  gui_.begin(view.width, view.height, 0);
-  const bool is_stopped = draw_progress(task, fraction);
-  gui_.finish();
+  bool is_stopped = false;
+  for (int frame = std::exchange(has_shown_task_, true) ? 1 : 0; frame < 2; ++frame) {
+    gui_.begin(view.width, view.height, 0);
+    is_stopped |= draw_progress(task, fraction);
+    gui_.finish();
+  }
   renderer_->draw(view.camera, view.width, view.height);
   gui_.draw();
   return is_stopped;
