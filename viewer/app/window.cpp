@@ -285,8 +285,8 @@ class Program {
       for (const ScriptStep& step : parse_script_line(line)) {
         if (const auto* event = std::get_if<Event>(&step)) {
           viewer_.handle(*event);
-        } else {
-          viewer_.session().apply(std::get<OperationCall>(step));
+        } else if (const auto* call = std::get_if<OperationCall>(&step)) {
+          viewer_.session().apply(*call);
         }
       }
     }
