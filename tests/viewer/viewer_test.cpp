@@ -39,20 +39,20 @@ class ViewerTest : public ::testing::Test {
     viewer_.handle(Resize{800, 600});
     viewer_.open(path);
     viewer_.session().run_line("new box output=a min=-1,-1,-1 max=2,2,1");
-    draw();
+    settle();
   }
 
-  void draw() {
-    viewer_.draw(0.1);
-    viewer_.draw(0.1);
+  void settle() {
+    viewer_.update(0.1);
+    viewer_.update(0.1);
   }
   void click(const glm::dvec2& at) {
     viewer_.handle(MouseMove{at});
-    draw();
+    settle();
     viewer_.handle(MousePress{MouseButton::Left, at, {}});
-    draw();
+    settle();
     viewer_.handle(MouseRelease{MouseButton::Left, at});
-    draw();
+    settle();
   }
 
   OffscreenContext context_;
@@ -63,7 +63,7 @@ class ViewerTest : public ::testing::Test {
 
 TEST_F(ViewerTest, a_task_that_a_button_began_shows_how_far_it_is) {
   viewer_.session().set_mode(Mode::Bind);
-  draw();
+  settle();
   for (double y = 136; y < 220 && viewer_.session().scene().bound.empty(); y += 12) {
     click({120, y});
   }
@@ -90,9 +90,9 @@ TEST_F(ViewerTest, escape_stops_a_task_and_other_keys_do_not) {
 
 TEST_F(ViewerTest, a_digit_takes_an_entry_of_the_menu_that_a_key_opened) {
   viewer_.handle(KeyPress{"."});
-  draw();
+  settle();
   viewer_.handle(KeyPress{"3"});
-  draw();
+  settle();
   EXPECT_EQ(viewer_.session().handling().pivot, Pivot::Individual);
   viewer_.handle(KeyPress{"3"});  // faces: no menu is open
   EXPECT_EQ(viewer_.session().element_kind(), ElementKind::Face);

@@ -50,16 +50,16 @@ class Canvas {
 };
 
 /// A panel that opens has its size and the keyboard in the frame after.
-void draw_settled(Viewer& viewer) {
-  viewer.draw(kFrameSeconds);
-  viewer.draw(kFrameSeconds);
+void settle(Viewer& viewer) {
+  viewer.update(kFrameSeconds);
+  viewer.update(kFrameSeconds);
 }
 
 /// As with a real mouse, the panels see it before its button goes down.
 void handle(const Event& event, Viewer& viewer) {
   if (const auto* press = std::get_if<MousePress>(&event)) {
     viewer.handle(MouseMove{press->at});
-    draw_settled(viewer);
+    settle(viewer);
   }
   viewer.handle(event);
 }
@@ -90,7 +90,7 @@ void run_script(const HeadlessOptions& options, const Canvas& canvas, Viewer& vi
       } else if (!viewer.session().apply(std::get<OperationCall>(step))) {
         throw FileError(options.script_path, number, viewer.session().messages().back());
       }
-      draw_settled(viewer);
+      settle(viewer);
     }
   }
 }
@@ -110,7 +110,7 @@ Picture run_headless(const HeadlessOptions& options) {
     }
   }
   viewer.session().frame_all();
-  draw_settled(viewer);
+  settle(viewer);
   run_script(options, canvas, viewer);
   return picture_of(viewer, canvas);
 }

@@ -77,7 +77,7 @@ void Viewer::remember(const std::string& path) {
   state_.recent.resize(std::min(state_.recent.size(), kMost));
 }
 
-void Viewer::draw(double seconds) {
+void Viewer::update(double seconds) {
   state_.frame_seconds = seconds;
   has_shown_task_ = false;
   make_panels(seconds);
@@ -98,6 +98,10 @@ void Viewer::draw(double seconds) {
     session_.say(error.what());
     session_.set_show(Show());  // what cannot be shown is not asked for again
   }
+}
+
+void Viewer::draw(double seconds) {
+  update(seconds);
   const View& view = session_.view();
   renderer_->draw(view.camera, view.width, view.height);
   gui_.draw();
