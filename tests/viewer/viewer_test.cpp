@@ -103,6 +103,23 @@ TEST_F(ViewerTest, a_digit_takes_an_entry_of_the_menu_that_a_key_opened) {
   EXPECT_FALSE(viewer_.session().cursor());
 }
 
+TEST_F(ViewerTest, sessions_that_did_not_end_well_are_offered_until_one_is_chosen_or_escape) {
+  viewer_.offer({"yesterday   3 steps   /here", "today   1 step   /there"});
+  settle();
+  EXPECT_TRUE(viewer_.is_offering());
+  EXPECT_FALSE(viewer_.take_recovered());
+  click({400 - 640 / 2 + 30, 300 - 240 / 2 + 64});  // the second row
+  const auto chosen = viewer_.take_recovered();
+  ASSERT_TRUE(chosen);
+  EXPECT_EQ(*chosen, 1u);
+  EXPECT_FALSE(viewer_.take_recovered());
+  EXPECT_FALSE(viewer_.take_thrown_away());
+  click({400 - 640 / 2 + 100, 300 - 240 / 2 + 39});  // the first row's other button
+  EXPECT_EQ(viewer_.take_thrown_away(), std::optional<std::size_t>(0));
+  viewer_.handle(KeyPress{"escape"});
+  EXPECT_FALSE(viewer_.is_offering());
+}
+
 TEST_F(ViewerTest, while_points_move_a_point_is_typed) {
   for (const char* key : {"1", "a", "g", "x", ".", "5", "enter"}) {
     viewer_.handle(KeyPress{key});

@@ -23,7 +23,8 @@ void Viewer::handle(const Event& event) {
     return;
   }
   const bool has_text_field = state_.shows_files || state_.shows_palette || state_.form;
-  if (chord == "escape" && (has_text_field || state_.shows_help)) {
+  if (chord == "escape" && (has_text_field || state_.shows_help || is_offering())) {
+    state_.left.clear();
     state_.shows_help = state_.shows_files = state_.shows_palette = false;
     state_.form.reset();
     session_.end_preview();
