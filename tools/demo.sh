@@ -62,11 +62,8 @@ viewer() {
   echo "\$ espalier-viewer $*"
   "$top/build/bin/espalier-viewer" "$@"
 }
-for name in box grown bound bent; do
-  sed "/^# picture $name\$/q" "$data/leg_session.txt" >leg_session.txt
-  viewer figure.obj --script leg_session.txt --size 1000x640 --screenshot "viewer-$name.png"
-  [ "$pictures" = no ] || cp "viewer-$name.png" "$top/tools/pictures/"
-done
+viewer figure.obj --script "$data/leg_session.txt" --size 1000x640 --screenshot 'viewer-{}.png'
+[ "$pictures" = no ] || cp viewer-*.png "$top/tools/pictures/"
 
 echo
 echo "Models, lattices and pictures are in build/demo/:"

@@ -25,6 +25,7 @@ constexpr const char* kScriptHelp =
     "  click BUTTON X Y          both\n"
     "  scroll STEPS              the wheel\n"
     "  type TEXT                 into a field\n"
+    "  picture NAME              takes one: --screenshot leg-{}.png writes leg-NAME.png\n"
     "  OPERATION NAME=VALUE ...  as in a journal: new box cells=1,1,3 output=box.json\n"
     "Lines that begin with # are skipped.";
 
@@ -68,14 +69,31 @@ std::string state_path(const std::string& name) {
   return failure ? "" : (folder / name).string();
 }
 
+/// The last one, or where {} stands for a name one at every line of the script that says so.
+void take_pictures(const Options& options, HeadlessOptions headless) {
+  const std::size_t place = options.screenshot.find("{}");
+  if (place == std::string::npos) {
+    write_png(options.screenshot, run_headless(headless));
+    return;
+  }
+  std::size_t n_pictures = 0;
+  headless.on_picture = [&](const std::string& name, const Picture& picture) {
+    write_png(std::string(options.screenshot).replace(place, 2, name), picture);
+    ++n_pictures;
+  };
+  static_cast<void>(run_headless(headless));
+  if (n_pictures == 0) {
+    throw ParameterError("--screenshot has {}, but no line of the script says 'picture NAME'");
+  }
+}
+
 void run(const Options& options) {
   int width = 0;
   int height = 0;
   parse_size(options.size, width, height);
   const std::string script = options.script.empty() ? "" : read_file(options.script);
   if (!options.screenshot.empty()) {
-    write_png(options.screenshot,
-              run_headless({options.files, script, options.script, width, height}));
+    take_pictures(options, {options.files, script, options.script, width, height});
     return;
   }
   run_window({options.files, script, width, height, state_path("journal"), options.autosave,
@@ -91,8 +109,10 @@ int main(int argc, char** argv) {
                    "espalier-viewer");
   program.add_option("files", options.files, "models and lattices to open");
   program.add_option("--script", options.script, "steps to do, a file");
-  program.add_option("--screenshot", options.screenshot,
-                     "no window: do the script, write the last frame to this .png file");
+  program.add_option(
+      "--screenshot", options.screenshot,
+      "no window: do the script, write the last frame to this .png file; with {} in its "
+      "name those that the script takes");
   program.add_option("--size", options.size, "WIDTHxHEIGHT in pixels (default 1280x800)");
   program
       .add_option("--autosave", options.autosave,

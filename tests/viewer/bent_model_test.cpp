@@ -156,6 +156,14 @@ TEST_F(BentModelTest, a_preview_of_a_pose_bends_the_model_as_the_operation_does_
   EXPECT_EQ(positions(), previewed);
 }
 
+TEST_F(BentModelTest, a_preview_does_not_outlive_what_it_was_made_from) {
+  session_.preview(parse_call("pose twist lattice=bar from=0,1,1 to=4,1,1 angle=40 output=bar"));
+  while (session_.journal().can_undo()) {
+    session_.undo();
+  }
+  EXPECT_TRUE(session_.bent_models().all().empty());
+}
+
 TEST_F(BentModelTest, a_preview_of_another_lattice_or_of_nothing_bends_no_model) {
   const std::vector<glm::vec3> before = positions();
   for (const char* line :

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <map>
 
 #include "lattice/core/error.h"
 #include "lattice/core/file.h"
@@ -46,6 +47,25 @@ TEST_F(HeadlessTest, shows_the_model_between_the_panels) {
   const auto background = picture.at(300, 8);
   EXPECT_LT(panel[1], 50);
   EXPECT_GT(background[1], panel[1] + 10);
+}
+
+TEST_F(HeadlessTest, pictures_are_taken_where_the_script_says) {
+  std::map<std::string, Picture> taken;
+  HeadlessOptions options{{path("square.obj")},
+                          "key kp1\npicture front\nkey kp3\npicture side\nkey f1",
+                          "test.script",
+                          800,
+                          600};
+  const Picture without = run_headless(options);
+  options.on_picture = [&](const std::string& name, const Picture& picture) {
+    taken.emplace(name, picture);
+  };
+  const Picture last = run_headless(options);
+  EXPECT_EQ(last.pixels, without.pixels);
+  ASSERT_EQ(taken.size(), 2u);
+  EXPECT_TRUE(is_clay(taken.at("front"), 380, 280));
+  EXPECT_FALSE(is_clay(taken.at("side"), 380, 280));
+  EXPECT_EQ(taken.at("front").pixels, run("key kp1").pixels);
 }
 
 TEST_F(HeadlessTest, a_script_builds_binds_bends_and_saves) {

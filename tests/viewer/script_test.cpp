@@ -39,9 +39,15 @@ TEST(Script, reads_text_operations_and_nothing) {
   EXPECT_TRUE(parse_script_line("# a comment").empty());
 }
 
+TEST(Script, reads_names_of_pictures) {
+  const std::vector<ScriptStep> steps = parse_script_line("picture leg");
+  ASSERT_EQ(steps.size(), 1u);
+  EXPECT_EQ(std::get<PictureStep>(steps[0]).name, "leg");
+}
+
 TEST(Script, refuses_what_it_cannot_read) {
   for (const char* line : {"press nose 1 2", "move 1", "click left 1 2 meta", "scroll far", "dance",
-                           "new box output"}) {
+                           "picture", "picture ../a", "new box output"}) {
     EXPECT_THROW((void)parse_script_line(line), Error) << line;
   }
 }

@@ -120,6 +120,16 @@ TEST_F(SessionPivotTest, shift_and_the_right_button_place_the_cursor_on_the_mode
   EXPECT_LE(glm::distance(*session_.cursor(), bent), 1e-6);
 }
 
+TEST_F(SessionPivotTest, the_cursor_follows_the_mouse_until_the_button_is_released) {
+  session_.handle(MousePress{MouseButton::Right, pixel_of({0.6, 0.5, 0.5}), {.shift = true}});
+  const glm::dvec3 end(2.1, 0.4, 0.5);
+  session_.handle(MouseMove{pixel_of(end)});
+  session_.handle(MouseRelease{MouseButton::Right, pixel_of(end)});
+  session_.handle(MouseMove{pixel_of({0.6, 0.5, 0.5})});
+  EXPECT_LE(glm::distance(*session_.cursor(), end), 1e-6);
+  EXPECT_TRUE(session_.selection().empty());
+}
+
 TEST_F(SessionPivotTest, beside_the_models_the_cursor_stays_as_far_away_as_it_was) {
   session_.set_cursor(glm::dvec3(1, 0.5, 2));
   place_cursor(pixel_of({-2, 0.9, 2}));

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Opens a model in the viewer, extrudes a lattice twice, binds, poses, saves and quits, with real
-# keys and buttons: session_test.sh ESPALIER-VIEWER, on a display of its own.
+# Opens a model in the viewer, extrudes a lattice twice, binds, poses, saves and quits, crashes and
+# recovers, with real keys and buttons: session_test.sh ESPALIER-VIEWER, on a display of its own.
 set -eu
 viewer=$1
 folder=$(mktemp -d)
@@ -81,3 +81,37 @@ depths = sorted({round(v[2], 9) for v in lattice["vertices"]})
 assert len(depths) == 4 and abs(depths[3] - depths[1] - 2) < 1e-9, depths
 END
 [ ! -e "$journal" ] || fail "the recovery file is still there"
+
+# What a crash leaves is there again with --recover.
+rm -f "$folder"/*_bent.*
+cd "$folder"
+"$viewer" model.obj &
+process=$!
+xdotool search --sync --onlyvisible --name '^Espalier$' windowfocus >/dev/null
+for attempt in $(seq 10); do
+  keys n
+  ! grep -q 'new box' "$journal" 2>/dev/null || break
+  sleep 1
+done
+kill -9 "$process"
+wait "$process" 2>/dev/null || true
+[ -e "$journal" ] || fail "a crash leaves no journal"
+cd /
+"$viewer" --recover &
+process=$!
+xdotool search --sync --onlyvisible --name '^Espalier$' windowfocus >/dev/null
+for attempt in $(seq 10); do
+  keys ctrl+s
+  [ ! -e "$folder/lattice_bent.json" ] || break
+  sleep 1
+done
+[ -e "$folder/lattice_bent.json" ] || fail "the session that crashed is not recovered"
+keys ctrl+q
+for i in $(seq 100); do
+  kill -0 "$process" 2>/dev/null || break
+  sleep 0.1
+done
+wait "$process"
+for left in "$journal" "$journal.2"; do
+  [ ! -e "$left" ] || fail "$left is still there"
+done

@@ -39,20 +39,20 @@ class ViewerTest : public ::testing::Test {
     viewer_.handle(Resize{800, 600});
     viewer_.open(path);
     viewer_.session().run_line("new box output=a min=-1,-1,-1 max=2,2,1");
-    draw();
+    settle();
   }
 
-  void draw() {
-    viewer_.draw(0.1);
-    viewer_.draw(0.1);
+  void settle() {
+    viewer_.update(0.1);
+    viewer_.update(0.1);
   }
   void click(const glm::dvec2& at) {
     viewer_.handle(MouseMove{at});
-    draw();
+    settle();
     viewer_.handle(MousePress{MouseButton::Left, at, {}});
-    draw();
+    settle();
     viewer_.handle(MouseRelease{MouseButton::Left, at});
-    draw();
+    settle();
   }
 
   OffscreenContext context_;
@@ -63,7 +63,7 @@ class ViewerTest : public ::testing::Test {
 
 TEST_F(ViewerTest, a_task_that_a_button_began_shows_how_far_it_is) {
   viewer_.session().set_mode(Mode::Bind);
-  draw();
+  settle();
   for (double y = 136; y < 220 && viewer_.session().scene().bound.empty(); y += 12) {
     click({120, y});
   }
@@ -90,9 +90,9 @@ TEST_F(ViewerTest, escape_stops_a_task_and_other_keys_do_not) {
 
 TEST_F(ViewerTest, a_digit_takes_an_entry_of_the_menu_that_a_key_opened) {
   viewer_.handle(KeyPress{"."});
-  draw();
+  settle();
   viewer_.handle(KeyPress{"3"});
-  draw();
+  settle();
   EXPECT_EQ(viewer_.session().handling().pivot, Pivot::Individual);
   viewer_.handle(KeyPress{"3"});  // faces: no menu is open
   EXPECT_EQ(viewer_.session().element_kind(), ElementKind::Face);
@@ -101,6 +101,23 @@ TEST_F(ViewerTest, a_digit_takes_an_entry_of_the_menu_that_a_key_opened) {
   viewer_.handle(KeyPress{"1"});
   EXPECT_EQ(viewer_.session().element_kind(), ElementKind::Vertex);
   EXPECT_FALSE(viewer_.session().cursor());
+}
+
+TEST_F(ViewerTest, sessions_that_did_not_end_well_are_offered_until_one_is_chosen_or_escape) {
+  viewer_.offer({"yesterday   3 steps   /here", "today   1 step   /there"});
+  settle();
+  EXPECT_TRUE(viewer_.is_offering());
+  EXPECT_FALSE(viewer_.take_recovered());
+  click({400 - 640 / 2 + 30, 300 - 240 / 2 + 64});  // the second row
+  const auto chosen = viewer_.take_recovered();
+  ASSERT_TRUE(chosen);
+  EXPECT_EQ(*chosen, 1u);
+  EXPECT_FALSE(viewer_.take_recovered());
+  EXPECT_FALSE(viewer_.take_thrown_away());
+  click({400 - 640 / 2 + 100, 300 - 240 / 2 + 39});  // the first row's other button
+  EXPECT_EQ(viewer_.take_thrown_away(), std::optional<std::size_t>(0));
+  viewer_.handle(KeyPress{"escape"});
+  EXPECT_FALSE(viewer_.is_offering());
 }
 
 TEST_F(ViewerTest, while_points_move_a_point_is_typed) {

@@ -50,21 +50,27 @@ class Canvas {
 };
 
 /// A panel that opens has its size and the keyboard in the frame after.
-void draw_settled(Viewer& viewer) {
-  viewer.draw(kFrameSeconds);
-  viewer.draw(kFrameSeconds);
+void settle(Viewer& viewer) {
+  viewer.update(kFrameSeconds);
+  viewer.update(kFrameSeconds);
 }
 
 /// As with a real mouse, the panels see it before its button goes down.
 void handle(const Event& event, Viewer& viewer) {
   if (const auto* press = std::get_if<MousePress>(&event)) {
     viewer.handle(MouseMove{press->at});
-    draw_settled(viewer);
+    settle(viewer);
   }
   viewer.handle(event);
 }
 
-void run_script(const HeadlessOptions& options, Viewer& viewer) {
+/// Without the time that a frame took.
+Picture picture_of(Viewer& viewer, const Canvas& canvas) {
+  viewer.draw(0);
+  return canvas.picture();
+}
+
+void run_script(const HeadlessOptions& options, const Canvas& canvas, Viewer& viewer) {
   std::istringstream lines(options.script);
   std::string line;
   for (std::size_t number = 1; std::getline(lines, line); ++number) {
@@ -77,10 +83,14 @@ void run_script(const HeadlessOptions& options, Viewer& viewer) {
     for (const ScriptStep& step : steps) {
       if (const auto* event = std::get_if<Event>(&step)) {
         handle(*event, viewer);
+      } else if (const auto* picture = std::get_if<PictureStep>(&step)) {
+        if (options.on_picture) {
+          options.on_picture(picture->name, picture_of(viewer, canvas));
+        }
       } else if (!viewer.session().apply(std::get<OperationCall>(step))) {
         throw FileError(options.script_path, number, viewer.session().messages().back());
       }
-      draw_settled(viewer);
+      settle(viewer);
     }
   }
 }
@@ -100,10 +110,9 @@ Picture run_headless(const HeadlessOptions& options) {
     }
   }
   viewer.session().frame_all();
-  draw_settled(viewer);
-  run_script(options, viewer);
-  viewer.draw(0);  // without the time a frame took
-  return canvas.picture();
+  settle(viewer);
+  run_script(options, canvas, viewer);
+  return picture_of(viewer, canvas);
 }
 
 }  // namespace espalier::viewer

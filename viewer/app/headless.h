@@ -2,6 +2,7 @@
 
 /// The viewer without a window: scripts and pictures.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct HeadlessOptions {
   std::string script_path = "script";  ///< named in errors
   int width = 1280;
   int height = 800;
+  /// Gets what is taken at lines "picture NAME"; none: nobody wants it.
+  std::function<void(const std::string& name, const Picture& picture)> on_picture = {};
 };
 
 /// Opens the files, does what the script says, one frame a step, and returns the last frame, panels

@@ -23,7 +23,8 @@ void Viewer::handle(const Event& event) {
     return;
   }
   const bool has_text_field = state_.shows_files || state_.shows_palette || state_.form;
-  if (chord == "escape" && (has_text_field || state_.shows_help)) {
+  if (chord == "escape" && (has_text_field || state_.shows_help || is_offering())) {
+    state_.left.clear();
     state_.shows_help = state_.shows_files = state_.shows_palette = false;
     state_.form.reset();
     session_.end_preview();
@@ -77,7 +78,7 @@ void Viewer::remember(const std::string& path) {
   state_.recent.resize(std::min(state_.recent.size(), kMost));
 }
 
-void Viewer::draw(double seconds) {
+void Viewer::update(double seconds) {
   state_.frame_seconds = seconds;
   has_shown_task_ = false;
   make_panels(seconds);
@@ -98,6 +99,10 @@ void Viewer::draw(double seconds) {
     session_.say(error.what());
     session_.set_show(Show());  // what cannot be shown is not asked for again
   }
+}
+
+void Viewer::draw(double seconds) {
+  update(seconds);
   const View& view = session_.view();
   renderer_->draw(view.camera, view.width, view.height);
   gui_.draw();
@@ -123,12 +128,15 @@ bool Viewer::stops_task(const Event& event) {
   return key != nullptr && key->chord == "escape";
 }
 
+/// A panel that is new has its size, and is seen, in the frame after.
 bool Viewer::draw_task(std::string_view task, double fraction) {
   const View& view = session_.view();
-  has_shown_task_ = true;
-  gui_.begin(view.width, view.height, 0);
-  const bool is_stopped = draw_progress(task, fraction);
-  gui_.finish();
+  bool is_stopped = false;
+  for (int frame = std::exchange(has_shown_task_, true) ? 1 : 0; frame < 2; ++frame) {
+    gui_.begin(view.width, view.height, 0);
+    is_stopped |= draw_progress(task, fraction);
+    gui_.finish();
+  }
   renderer_->draw(view.camera, view.width, view.height);
   gui_.draw();
   return is_stopped;

@@ -24,7 +24,9 @@ class Viewer {
 
   void handle(const Event& event);
   void open(const std::string& path);
-  /// Draws into the current frame buffer. seconds: since the last frame.
+  /// What a frame does before it is drawn: panels and what they ask for. seconds: since the last.
+  void update(double seconds);
+  /// A frame, drawn into the current frame buffer.
   void draw(double seconds);
   /// As handle(), while a task is under way; true if the user stops it.
   [[nodiscard]] bool stops_task(const Event& event);

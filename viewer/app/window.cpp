@@ -226,6 +226,19 @@ std::vector<std::string> lines_of(const std::string& path) {
   return lines;
 }
 
+/// What other windows opened comes after our own.
+std::vector<std::string> merged(std::vector<std::string> recent,
+                                const std::vector<std::string>& others) {
+  for (const std::string& file : others) {
+    if (std::find(recent.begin(), recent.end(), file) == recent.end()) {
+      recent.push_back(file);
+    }
+  }
+  constexpr std::size_t kMost = 24;
+  recent.resize(std::min(recent.size(), kMost));
+  return recent;
+}
+
 /// The loop's state.
 class Program {
  public:
@@ -272,8 +285,8 @@ class Program {
       for (const ScriptStep& step : parse_script_line(line)) {
         if (const auto* event = std::get_if<Event>(&step)) {
           viewer_.handle(*event);
-        } else {
-          viewer_.session().apply(std::get<OperationCall>(step));
+        } else if (const auto* call = std::get_if<OperationCall>(&step)) {
+          viewer_.session().apply(*call);
         }
       }
     }
@@ -359,7 +372,7 @@ class Program {
     }
     kept_recent_ = viewer_.recent();
     std::string text;
-    for (const std::string& file : kept_recent_) {
+    for (const std::string& file : merged(kept_recent_, lines_of(options_.recent))) {
       text += file + "\n";
     }
     try {

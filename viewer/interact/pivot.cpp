@@ -1,5 +1,6 @@
 #include "viewer/interact/pivot.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
@@ -51,6 +52,7 @@ std::vector<Selection> islands(const LatticeElements& elements, ElementKind kind
     by_first[sets.find(vertex)].insert(vertex);
   }
   std::vector<Selection> result;
+  result.reserve(by_first.size());
   for (auto& [first, island] : by_first) {
     result.push_back(std::move(island));
   }

@@ -65,6 +65,12 @@ std::vector<ScriptStep> parse_script_line(std::string_view line) {
   } else if (what == "type") {
     const std::size_t begin = line.find("type") + 5;
     steps.push_back(Event(TextInput{std::string(line.substr(std::min(begin, line.size())))}));
+  } else if (what == "picture") {
+    const std::string_view name = words.next_word();
+    if (name.empty() || name.find('/') != std::string_view::npos) {
+      throw ParameterError("a picture's name is " + quoted(name) + ", must be a word without '/'");
+    }
+    steps.emplace_back(PictureStep{std::string(name)});
   } else if (!what.empty()) {
     steps.push_back(parse_call(line));
   }

@@ -10,7 +10,9 @@
 ///     click left 400 300 shift
 ///     scroll -2
 ///     type some text
+///     picture leg      what is to be seen now is taken under this name
 
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -20,7 +22,11 @@
 
 namespace espalier::viewer {
 
-using ScriptStep = std::variant<Event, OperationCall>;
+struct PictureStep {
+  std::string name;
+};
+
+using ScriptStep = std::variant<Event, OperationCall, PictureStep>;
 
 /// The steps of a line; none of an empty line or a comment. Throws ParameterError saying what is
 /// wrong with it.

@@ -106,8 +106,9 @@ bool Session::recover(const std::string& journal_text) {
   return is_whole;
 }
 
-/// The chosen lattice may be gone or another one.
+/// The chosen lattice may be gone or another one, and so what a preview was made from.
 void Session::scene_changed() {
+  preview_.posed.reset();
   if (!scene().lattices.contains(lattice_)) {
     lattice_ = scene().lattices.empty() ? "" : scene().lattices.begin()->first;
     elements_source_.reset();

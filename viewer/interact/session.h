@@ -146,7 +146,7 @@ class Session {
   [[nodiscard]] std::string status() const;
 
  private:
-  enum class Drag { None, Orbit, Pan, Zoom, Select };
+  enum class Drag { None, Orbit, Pan, Zoom, Select, Cursor };
 
   void on(const KeyPress& key);
   void on(const MousePress& press);

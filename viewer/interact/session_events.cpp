@@ -64,7 +64,7 @@ Session::Drag Session::drag_of(const MousePress& press) const {
     case MouseButton::Middle:
       return press.held.shift ? Drag::Pan : press.held.ctrl ? Drag::Zoom : Drag::Orbit;
     default:
-      return Drag::None;
+      return press.held.shift && !press.held.alt ? Drag::Cursor : Drag::None;
   }
 }
 
@@ -81,11 +81,10 @@ void Session::on(const MousePress& press) {
     }
     return;
   }
-  if (press.button == MouseButton::Right && press.held.shift && !press.held.alt) {
-    place_cursor(press.at);
-    return;
-  }
   drag_ = drag_of(press);
+  if (drag_ == Drag::Cursor) {
+    place_cursor(press.at);
+  }
   const auto handle = drag_ == Drag::Select ? active_handle() : std::nullopt;
   if (handle) {
     drag_ = Drag::None;
@@ -112,6 +111,9 @@ void Session::on(const MouseMove& move) {
     view_.camera = panned(view_.camera, by, view_.height);
   } else if (drag_ == Drag::Zoom) {
     view_.camera = zoomed(view_.camera, -kZoomAPixel * by.y);
+  }
+  if (drag_ == Drag::Cursor) {
+    place_cursor(move.at);
   }
   if (rubber_) {
     rubber_->to = move.at;

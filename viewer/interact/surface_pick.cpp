@@ -1,5 +1,6 @@
 #include "viewer/interact/surface_pick.h"
 
+#include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
 #include <limits>
