@@ -6,8 +6,10 @@
 namespace espalier {
 namespace {
 
-/// Cells with more faces take too long to freeze for a mere count.
-constexpr std::size_t kMostFaces = 32;
+/// Cells with more faces take too long to refine for a mere count.
+constexpr std::size_t kMostFaces = 128;
+/// Lattices of more cells are fine enough to be refined once.
+constexpr std::size_t kMostCoarseCells = 20000;
 
 }  // namespace
 
@@ -19,7 +21,8 @@ Conversion measured(const SubdivisionLattice& lattice, const Model& model,
       return {};
     }
   }
-  const Volume volume = freeze_adaptive(lattice, {.tolerance = 1e-3, .most_levels = 2}, progress);
+  const int levels = complex.n_cells() > kMostCoarseCells ? 1 : 2;
+  const Volume volume = freeze_uniform(lattice, levels, progress);
   const StatusCounts counts = embed(volume, model.points(), progress).counts();
   return {model.points().size(), counts.inside + counts.border, {}, 0};
 }

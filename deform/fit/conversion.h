@@ -19,8 +19,9 @@ struct Conversion {
   int cells_to_part = 0;
 };
 
-/// Counts the model's points inside the lattice's volume, frozen to about a hundredth of a cell;
-/// none (n_points = 0) if a cell has more than 32 faces, which would take too long. The same for
+/// Counts the model's points inside the lattice's volume, refined twice, which is exact to about a
+/// hundredth of a cell, or once if it has more than 20000 cells; none (n_points = 0) if a cell has
+/// more than 128 faces, which would take too long. The same for
 /// any number of threads.
 [[nodiscard]] Conversion measured(const SubdivisionLattice& lattice, const Model& model,
                                   const Progress& progress = {});

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "deform/fit/chain_place.h"
 #include "deform/fit/point_extent.h"
 #include "deform/model/volume_change.h"
 #include "lattice/build/offsets.h"
@@ -17,36 +18,6 @@
 
 namespace espalier {
 namespace {
-
-/// Where a chain of joints is nearest to a point.
-struct Place {
-  std::size_t bone = 0;
-  double t = 0;  ///< along the bone, from 0 to 1
-  double distance = std::numeric_limits<double>::infinity();
-  double beyond = 0;  ///< how far past the plane at an end of the chain, if positive
-};
-
-Place nearest_place(const glm::dvec3& x, std::span<const glm::dvec3> joints) {
-  Place best;
-  const std::size_t n_bones = joints.size() - 1;
-  for (std::size_t i = 0; i < n_bones; ++i) {
-    const glm::dvec3 bone = joints[i + 1] - joints[i];
-    const double length = glm::length(bone);
-    const double s = glm::dot(x - joints[i], bone / length) / length;
-    const double t = std::clamp(s, 0.0, 1.0);
-    const double distance = glm::distance(x, joints[i] + t * bone);
-    if (distance < best.distance) {
-      const double before = i == 0 ? -s * length : -1;
-      const double after = i + 1 == n_bones ? (s - 1) * length : -1;
-      best = {i, t, distance, std::max(before, after)};
-    }
-  }
-  return best;
-}
-
-glm::dvec3 foot_of(const Place& place, std::span<const glm::dvec3> joints) {
-  return joints[place.bone] * (1 - place.t) + joints[place.bone + 1] * place.t;
-}
 
 /// Points at the ends of the edges of each point's faces, with repetitions.
 CompressedRows<std::int32_t> neighbours(std::size_t n_points,
@@ -179,18 +150,18 @@ Sight seen_from_bones(std::span<const glm::dvec3> points, const CompressedRows<s
 }
 
 /// Of each stretch of each bone the place that is farthest from it.
-std::vector<Place> widest_places(const std::vector<Place>& places, std::size_t n_joints) {
+std::vector<ChainPlace> widest_places(const std::vector<ChainPlace>& places, std::size_t n_joints) {
   constexpr std::size_t kStretches = 8;
-  std::vector<std::optional<Place>> widest(kStretches * (n_joints - 1));
-  for (const Place& place : places) {
+  std::vector<std::optional<ChainPlace>> widest(kStretches * (n_joints - 1));
+  for (const ChainPlace& place : places) {
     const auto stretch = std::min(kStretches - 1, static_cast<std::size_t>(kStretches * place.t));
-    std::optional<Place>& best = widest[kStretches * place.bone + stretch];
+    std::optional<ChainPlace>& best = widest[kStretches * place.bone + stretch];
     if (!best || place.distance > best->distance) {
       best = place;
     }
   }
-  std::vector<Place> result;
-  for (const std::optional<Place>& place : widest) {
+  std::vector<ChainPlace> result;
+  for (const std::optional<ChainPlace>& place : widest) {
     if (place) {
       result.push_back(*place);
     }
@@ -200,7 +171,7 @@ std::vector<Place> widest_places(const std::vector<Place>& places, std::size_t n
 
 /// Radii at the joints whose line along the bones is nearest to the places' distances, in least
 /// squares, and as even as that leaves them: a tridiagonal system.
-std::vector<double> even_radii(const std::vector<Place>& places, std::size_t n_joints) {
+std::vector<double> even_radii(const std::vector<ChainPlace>& places, std::size_t n_joints) {
   constexpr double kEvenness = 1e-3;
   std::vector<double> diagonal(n_joints, 0);
   std::vector<double> beside(n_joints, 0);
@@ -212,7 +183,7 @@ std::vector<double> even_radii(const std::vector<Place>& places, std::size_t n_j
     radii[bone] += weight * first * value;
     radii[bone + 1] += weight * second * value;
   };
-  for (const Place& place : places) {
+  for (const ChainPlace& place : places) {
     add(place.bone, 1 - place.t, place.t, place.distance, 1);
   }
   for (std::size_t bone = 0; bone + 1 < n_joints; ++bone) {
@@ -232,7 +203,7 @@ std::vector<double> even_radii(const std::vector<Place>& places, std::size_t n_j
 
 /// Raises radii until no place is farther from its bone: where one is, the two radii of the bone by
 /// what is least in sum of squares.
-void raise(const std::vector<Place>& places, std::vector<double>& radii) {
+void raise(const std::vector<ChainPlace>& places, std::vector<double>& radii) {
   constexpr int kMostSweeps = 100;
   bool has_grown = true;
   for (int sweep = 0; has_grown && sweep < kMostSweeps; ++sweep) {
@@ -269,7 +240,7 @@ std::vector<std::int32_t> limb_points(std::span<const glm::dvec3> points,
     const std::int32_t point = open.back();
     open.pop_back();
     const auto i = static_cast<std::size_t>(point);
-    const Place place = nearest_place(points[i], joints);
+    const ChainPlace place = nearest_place(points[i], joints);
     const bool looks_back =
         !normals.empty() && glm::dot(normals[i], points[i] - foot_of(place, joints)) < 0;
     if (is_reached[i] || place.beyond > 0 || looks_back ||
@@ -295,7 +266,7 @@ std::vector<double> limb_radii(std::span<const glm::dvec3> points,
                                std::span<const glm::dvec3> joints, double margin) {
   constexpr double kThinnestNeighbour = 0.25;
   const double thinnest = margin + kThinnestFit * extent_of(joints) / 2;
-  std::vector<Place> places;
+  std::vector<ChainPlace> places;
   places.reserve(points.size());
   for (const glm::dvec3& point : points) {
     places.push_back(nearest_place(point, joints));
@@ -320,7 +291,7 @@ std::vector<glm::dvec3> moved_off_bones(std::span<const glm::dvec3> points,
   std::vector<glm::dvec3> moved;
   moved.reserve(points.size());
   for (const glm::dvec3& point : points) {
-    const Place place = nearest_place(point, joints);
+    const ChainPlace place = nearest_place(point, joints);
     const glm::dvec3 bone = unit_vector(joints[place.bone + 1] - joints[place.bone]);
     const glm::dvec3 away = unit_vector(point - foot_of(place, joints));
     moved.push_back(point + distance * (away == glm::dvec3(0) ? plane_across(bone)[0] : away));

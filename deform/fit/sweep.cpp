@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "deform/fit/chain_place.h"
 #include "lattice/build/checks.h"
 #include "lattice/build/extrude.h"
 #include "lattice/build/frames.h"
@@ -100,19 +101,9 @@ class Axis {
 
   /// Where a point is nearest to the axis: piece + fraction, and how far it is; -1 beyond an end.
   [[nodiscard]] std::pair<double, double> nearest(const glm::dvec3& point) const {
-    double place = -1;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < n_pieces(); ++i) {
-      const double t = glm::dot(point - begin(i), bones_[i]) / length(i);
-      const double inside = std::clamp(t, 0.0, 1.0);
-      const double distance = glm::distance(point, begin(i) + (end(i) - begin(i)) * inside);
-      if (distance < least) {
-        const bool is_beyond = !is_closed_ && ((i == 0 && t < 0) || (i + 1 == n_pieces() && t > 1));
-        least = distance;
-        place = is_beyond ? -1 : static_cast<double>(i) + inside;
-      }
-    }
-    return {place, least};
+    const ChainPlace found = nearest_place(point, corners_, is_closed_);
+    const bool is_beyond = found.beyond > 0;
+    return {is_beyond ? -1 : static_cast<double>(found.bone) + found.t, found.distance};
   }
 
  private:

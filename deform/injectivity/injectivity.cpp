@@ -25,6 +25,7 @@ constexpr std::size_t kRestBoxes = 200;
 /// A patch whose determinant may be zero is flat if rounding is so small beside the box of its
 /// derivatives; else its sign is not known.
 constexpr double kFlatness = 1e-6;
+constexpr double kThinness = 1e-12;
 
 double value_at(const BoundedPolynomial& polynomial, const glm::dvec3& uvw) {
   std::array<std::vector<double>, 3> bases;
@@ -61,22 +62,25 @@ bool is_parallel(std::span<const glm::dvec3> motion) {
   return true;
 }
 
-/// The longest derivatives along the axes of a patch multiplied: what a determinant may be.
+/// What a determinant may be: the longest derivatives along the axes of a patch multiplied; 0 where
+/// one is nothing beside another.
 double box_of_derivatives(const BezierPatch& patch) {
-  double product = 1;
+  glm::dvec3 longest(0);
   std::size_t stride = 1;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto size = static_cast<std::size_t>(patch.degree[axis]) + 1;
-    double longest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int degree = patch.degree[static_cast<std::size_t>(axis)];
+    const auto size = static_cast<std::size_t>(degree) + 1;
     for (std::size_t i = 0; i + stride < patch.points.size(); ++i) {
       if (i / stride % size + 1 < size) {
-        longest = std::max(longest, glm::distance(patch.points[i], patch.points[i + stride]));
+        const double step = glm::distance(patch.points[i], patch.points[i + stride]);
+        longest[axis] = std::max(longest[axis], degree * step);
       }
     }
-    product *= patch.degree[axis] * longest;
     stride *= size;
   }
-  return product;
+  const double least = std::min({longest.x, longest.y, longest.z});
+  const double most = std::max({longest.x, longest.y, longest.z});
+  return least > kThinness * most ? longest.x * longest.y * longest.z : 0;
 }
 
 /// None if all are equal: equal weights cancel.

@@ -26,6 +26,13 @@ bool has_way(const Arguments& arguments, const char* way) {
   return way == std::string("solid") ? arguments.flag(way) : arguments.has(way);
 }
 
+/// The option that chooses the way.
+std::string way_of(const Arguments& arguments) {
+  const auto* way = std::find_if(kWays.begin(), kWays.end(),
+                                 [&](const char* name) { return has_way(arguments, name); });
+  return std::string("--") + *way;
+}
+
 /// Throws ParameterError for options that another way than the chosen one has.
 void refuse(const Arguments& arguments, const char* option, const char* is_for) {
   if (arguments.has(option)) {
@@ -111,7 +118,9 @@ Scene sweep_path(const Scene& scene, const Arguments& arguments, const Model& mo
     throw ParameterError("'radius' must be positive");
   }
   CellMesh mesh = sweep(path.points(), polylines_of(path), model.points(), options);
-  return with_count(add_lattice(scene, arguments, std::move(mesh), progress), arguments, progress);
+  return with_count(add_lattice(scene, arguments, std::move(mesh), progress,
+                                path.path() + ": " + way_of(arguments)),
+                    arguments, progress);
 }
 
 Scene convert_model(const Scene& scene, const Arguments& arguments, const Model& model,
@@ -140,8 +149,10 @@ Scene convert_model(const Scene& scene, const Arguments& arguments, const Model&
   if (arguments.flag("solid") && !arguments.has("sharp")) {
     options.set("sharp", std::string("none"));
   }
-  return with_count(add_lattice(scene, options, mesh_from(model, arguments), progress), arguments,
-                    progress);
+  CellMesh mesh = mesh_from(model, arguments);
+  return with_count(add_lattice(scene, options, std::move(mesh), progress,
+                                model.path() + ": " + way_of(arguments)),
+                    arguments, progress);
 }
 
 Scene convert(const Scene& scene, const Arguments& arguments, const Progress& progress) {

@@ -1,5 +1,7 @@
 /// Operations that bring files into the scene and objects out of it.
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <utility>
 
@@ -35,6 +37,26 @@ Scene open(const Scene& scene, const Arguments& arguments, const Progress& progr
   return result;
 }
 
+/// Throws ParameterError, with what would be right, for a volume that makes a huge file though
+/// nobody asked for just that. What a number of patches takes is known from wraps.
+void refuse_huge_file(const Volume& volume, const Arguments& arguments, const std::string& name,
+                      bool is_subdivision) {
+  constexpr double kMostBytes = 5e8;
+  constexpr double kBytesPerPoint = 33;  // of a patch: its index, and its share of the coordinates
+  double bytes = 0;
+  for (std::size_t i = 0; i < volume.n_patches(); ++i) {
+    const auto [p, q, r] = volume.degree(i);
+    bytes += kBytesPerPoint * (p + 1) * (q + 1) * (r + 1);
+  }
+  if (bytes > kMostBytes && arguments.text("freeze") == "adaptive") {
+    throw ParameterError(fmt::format(
+        "{}: the frozen volume has {} patches, a file of about {:.1f} GB: {}--freeze adaptive:1e-5 "
+        "writes it all the same",
+        name, volume.n_patches(), bytes / 1e9,
+        is_subdivision ? "--freeze adaptive:1e-3 makes a smaller one to look at, " : ""));
+  }
+}
+
 /// What VTK is to draw of a lattice.
 std::string vtu_of(const Scene& scene, const Arguments& arguments, const Progress& progress) {
   const std::string& name = arguments.text("name");
@@ -51,6 +73,7 @@ std::string vtu_of(const Scene& scene, const Arguments& arguments, const Progres
     });
   }
   const Volume volume = freeze(lattice, arguments.text("freeze"), progress);
+  refuse_huge_file(volume, arguments, name, lattice.as<SubdivisionLattice>() != nullptr);
   const auto* tensor = lattice.as<TensorLattice>();
   const bool has_weights = tensor != nullptr && !is_rest;
   return vtu_text(

@@ -71,12 +71,12 @@ Parameter freeze_parameter() {
 }
 
 Scene add_lattice(const Scene& scene, const Arguments& arguments, CellMesh mesh,
-                  const Progress& progress) {
+                  const Progress& progress, const std::string& source) {
   RawLattice raw;
   raw.polyhedra = std::move(mesh.cells);
   raw.rest = std::move(mesh.points);
-  return add_lattice(scene, arguments,
-                     build_lattice(std::move(raw), arguments.text("output"), progress));
+  const std::string& blamed = source.empty() ? arguments.text("output") : source;
+  return add_lattice(scene, arguments, build_lattice(std::move(raw), blamed, progress));
 }
 
 Scene add_lattice(const Scene& scene, const Arguments& arguments, SubdivisionLattice lattice) {

@@ -20,9 +20,10 @@ namespace espalier {
 [[nodiscard]] Parameter freeze_parameter();
 
 /// The scene with a new lattice named "output", its scheme and tags by "scheme" and "sharp". Throws
-/// LatticeError if the mesh is no valid lattice, ParameterError for a bad "sharp".
+/// LatticeError if the mesh is no valid lattice, which blames `source`, or "output" if that is
+/// empty; ParameterError for a bad "sharp".
 [[nodiscard]] Scene add_lattice(const Scene& scene, const Arguments& arguments, CellMesh mesh,
-                                const Progress& progress);
+                                const Progress& progress, const std::string& source = {});
 /// The same with a lattice that is valid; it keeps its own tags where "sharp" is absent.
 [[nodiscard]] Scene add_lattice(const Scene& scene, const Arguments& arguments,
                                 SubdivisionLattice lattice);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "deform/animate/limb_part.h"
 #include "deform/animate/limb_pose.h"
 #include "deform/scene/element_lists.h"
 #include "deform/scene/operations.h"
@@ -21,10 +23,35 @@ using Points = std::vector<glm::dvec3>;
 /// Where some of a lattice's posed points go.
 using PoseMap = std::function<Points(const Lattice&, const Points&, const Arguments&)>;
 
+/// The limb that `about` and `along` describe; throws ParameterError without these.
+LimbPart limb_of(const Lattice& lattice, const Arguments& arguments) {
+  if (!arguments.has("along") || arguments.vector("along") == glm::dvec3(0)) {
+    throw ParameterError("'limb' needs --along, the direction of the limb, not zero");
+  }
+  return limb_part(lattice.posed_points(), lattice.net(), arguments.vector("about"),
+                   arguments.vector("along"));
+}
+
+bool is_of_limb(const Arguments& arguments) {
+  return arguments.has("limb") && arguments.flag("limb");
+}
+
 /// The posed points with those that the arguments name mapped.
 Points mapped_points(const Lattice& lattice, const Arguments& arguments, const PoseMap& map) {
   const auto posed = lattice.posed_points();
   Points result(posed.begin(), posed.end());
+  if (is_of_limb(arguments)) {
+    if (arguments.has("vertices")) {
+      throw ParameterError("'limb' and --vertices exclude each other");
+    }
+    const LimbPart limb = limb_of(lattice, arguments);
+    const Points all = map(lattice, result, arguments);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      const double share = limb.shares[i];
+      result[i] = share == 1 ? all[i] : share == 0 ? posed[i] : glm::mix(posed[i], all[i], share);
+    }
+    return result;
+  }
   if (!arguments.has("vertices")) {
     return map(lattice, result, arguments);
   }
@@ -69,10 +96,14 @@ LimbRegion region_of(const Lattice& lattice, const Arguments& arguments, double 
   if (region.along == glm::dvec3(0)) {
     throw ParameterError("'along' must not be zero");
   }
-  region.falloff =
-      arguments.has("falloff")
-          ? arguments.number("falloff")
-          : usual * cut_radius(lattice.posed_points(), lattice.net(), region.joint, region.along);
+  if (arguments.has("falloff")) {
+    region.falloff = arguments.number("falloff");
+  } else {
+    region.falloff =
+        usual * (is_of_limb(arguments) ? limb_of(lattice, arguments).radius
+                                       : cut_radius(lattice.posed_points(), lattice.net(),
+                                                    region.joint, region.along));
+  }
   return region;
 }
 
@@ -146,6 +177,11 @@ std::vector<Parameter> with_region(std::vector<Parameter> own, const char* about
                  .type = Type::Number,
                  .help = "length over which that begins, half before and half beyond the joint "
                          "(default: the lattice's thickness there, more for large angles)"});
+  own.push_back({.name = "limb",
+                 .type = Type::Flag,
+                 .help =
+                     "only what hangs together with the joint, of a lattice round a whole body: "
+                     "no other limb, though it too is beyond"});
   return own;
 }
 

@@ -17,18 +17,6 @@ namespace {
 
 constexpr int kMostLayers = 10000;
 
-void check_distinct(std::span<const std::int32_t> loop, const std::string& name, std::size_t face) {
-  VertexLoop sorted(loop.begin(), loop.end());
-  std::sort(sorted.begin(), sorted.end());
-  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twice != sorted.end()) {
-    throw LatticeError(fmt::format(
-        "{}: face {} has point {} twice; the points of a face must differ: remove the face, or "
-        "make two of it",
-        name, face, *twice));
-  }
-}
-
 void check_faces(const CompressedRows<std::int32_t>& faces, std::size_t n_points,
                  const std::string& name) {
   if (faces.empty()) {
@@ -46,7 +34,21 @@ void check_faces(const CompressedRows<std::int32_t>& faces, std::size_t n_points
                              std::to_string(n_points));
       }
     }
-    check_distinct(faces[face], name, face);
+  }
+}
+
+void check_distinct_points(const CompressedRows<std::int32_t>& faces, const std::string& name) {
+  VertexLoop sorted;
+  for (std::size_t face = 0; face < faces.n_rows(); ++face) {
+    sorted.assign(faces[face].begin(), faces[face].end());
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice != sorted.end()) {
+      throw LatticeError(fmt::format(
+          "{}: face {} has point {} twice; the points of a face must differ: remove the face, or "
+          "make two of it",
+          name, face, *twice));
+    }
   }
 }
 
@@ -212,6 +214,7 @@ CellMesh extrude(std::span<const glm::dvec3> points, const CompressedRows<std::i
   check_faces(faces, points.size(), "extrude");
   check_layers(layers, faces.n_values());
   check_direction(direction);
+  check_distinct_points(faces, "extrude");
   check_open(faces);
   const UsedPart used = used_part(points, faces);
   const std::vector<glm::dvec3> offsets(used.points.size(), direction);
@@ -226,6 +229,7 @@ CellMesh thicken(std::span<const glm::dvec3> points, const CompressedRows<std::i
   if (!std::isfinite(thickness) || thickness == 0) {
     throw ParameterError("thicken: the thickness must be finite and not zero");
   }
+  check_distinct_points(faces, "thicken");
   check_consistent(faces);
   const UsedPart used = used_part(points, faces);
   const std::vector<glm::dvec3> offsets = offsets_along_normals(used.points, used.faces, thickness);
@@ -241,6 +245,7 @@ CellMesh solid(std::span<const glm::dvec3> points, const CompressedRows<std::int
         "many cells: --wrap N round the whole mesh, --thicken t along its surface",
         faces.n_rows(), kMostSolidFaces));
   }
+  check_distinct_points(faces, "solid");
   check_closed(faces);
   UsedPart used = used_part(points, faces);
   const auto n_faces = static_cast<std::uint32_t>(used.faces.n_rows());

@@ -93,6 +93,14 @@ StencilTable StencilTable::build(std::size_t n_rows, std::size_t n_controls,
     parallel_ranges(n, kRowsPerRange, [&](std::size_t begin, std::size_t end) {
       fill_rows(first + begin, first + end, 1, blocks[begin / kRowsPerRange]);
     });
+    if (n == n_rows) {
+      std::size_t n_weights = 0;
+      for (const Block& block : blocks) {
+        n_weights += block.indices.size();
+      }
+      table.indices_.reserve(n_weights);
+      table.weights_.reserve(n_weights);
+    }
     for (std::size_t i = 0; i * kRowsPerRange < n; ++i) {
       const Block& block = blocks[i];
       static_cast<void>(row_offset(table.indices_.size() + block.indices.size()));
@@ -152,8 +160,8 @@ StencilTable StencilTable::transpose() const {
 }
 
 std::size_t StencilTable::bytes() const {
-  return offsets_.capacity() * sizeof(std::uint32_t) + indices_.capacity() * sizeof(std::int32_t) +
-         weights_.capacity() * sizeof(double);
+  return offsets_.size() * sizeof(std::uint32_t) + indices_.size() * sizeof(std::int32_t) +
+         weights_.size() * sizeof(double);
 }
 
 ReachedRows::ReachedRows(const StencilTable& table)

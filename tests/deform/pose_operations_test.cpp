@@ -108,6 +108,29 @@ TEST(PoseOperations, poses_of_limbs_keep_what_is_bound_and_may_stay_in_place) {
   EXPECT_TRUE(subdivision_lattice_in(still, "box").pose.empty());
 }
 
+TEST(PoseOperations, limb_turns_one_of_two_legs_that_lie_beyond_the_joint) {
+  Scene scene = done({}, "new box output=u cells=5,4,1 min=0,0,0 max=5,4,1");
+  scene = done(scene, "delete lattice=u cells=1,2,3,6,7,8,11,12,13 output=u");
+  const std::string turn =
+      "pose rotate lattice=u about=0.5,1.5,0.5 along=0,-1,0 axis=1,0,0 angle=30 falloff=0.5";
+  const auto n_moved = [](const Scene& posed) {
+    const SubdivisionLattice& lattice = subdivision_lattice_in(posed, "u");
+    int n = 0;
+    for (std::size_t i = 0; i < lattice.rest.size(); ++i) {
+      n += lattice.pose[i] != lattice.rest[i] ? 1 : 0;
+      EXPECT_TRUE(lattice.pose[i] == lattice.rest[i] || lattice.rest[i].y <= 1);
+    }
+    return n;
+  };
+  EXPECT_EQ(n_moved(done(scene, turn)), 16);
+  EXPECT_EQ(n_moved(done(scene, turn + " limb=true")), 8);
+  EXPECT_EQ(refusal("pose rotate lattice=box about=0,0,0 angle=30 limb=true"),
+            "'limb' needs --along, the direction of the limb, not zero");
+  EXPECT_EQ(refusal("pose rotate lattice=box about=0,0,0 along=1,0,0 angle=30 limb=true "
+                    "vertices=0"),
+            "'limb' and --vertices exclude each other");
+}
+
 TEST(PoseOperations, save_deformed_writes_what_the_bound_lattices_do_and_leaves_the_scene) {
   std::string all = "0";
   for (int i = 1; i < 27; ++i) {

@@ -73,6 +73,14 @@ TEST_F(ConvertLattice, refuses_what_has_no_meaning) {
   EXPECT_EQ(files(), (std::vector<std::string>{"box.json", "cube.obj"}));
 }
 
+TEST_F(ConvertLattice, tells_how_large_a_volume_would_be_before_it_writes_half_a_gigabyte) {
+  done({"new", "bspline", "--counts", "68", "68", "68", "-o", "big.json"});
+  EXPECT_EQ(refusal({"convert", "big.json", "--volume", "-o", "big.vtu"}, 2),
+            "big.vtu: the frozen volume has 274625 patches, a file of about 0.6 GB: --freeze "
+            "adaptive:1e-5 writes it all the same");
+  EXPECT_EQ(files(), std::vector<std::string>{"big.json"});
+}
+
 class ConvertModel : public CommandLineTest {};
 
 /// A staple: a bar along x with a leg at each end.
@@ -81,6 +89,12 @@ std::string staple_obj() {
          "v 0 0 1\nv 3 0 1\nv 3 5 1\nv 2 5 1\nv 2 1 1\nv 1 1 1\nv 1 5 1\nv 0 5 1\n"
          "f 8 7 6 5 4 3 2 1\nf 9 10 11 12 13 14 15 16\nf 1 2 10 9\nf 2 3 11 10\nf 3 4 12 11\n"
          "f 4 5 13 12\nf 5 6 14 13\nf 6 7 15 14\nf 7 8 16 15\nf 8 1 9 16\n";
+}
+
+TEST_F(ConvertModel, blames_the_mesh_and_not_the_file_to_be_written_where_no_lattice_comes_of_it) {
+  write_file("staple.obj", staple_obj());
+  const std::string why = refusal({"convert", "staple.obj", "--thicken", "-2", "-o", "w.json"}, 1);
+  EXPECT_EQ(why.substr(0, why.find("cell")), "staple.obj: --thicken: invalid lattice: ");
 }
 
 TEST_F(ConvertModel, by_wrap_holds_the_whole_model_and_is_certified) {
