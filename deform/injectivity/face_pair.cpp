@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kFinestPart = 0x1p-22;  // of a face's side
 constexpr int kMostTurns = 12;           // of a direction that slopes are seen from
-constexpr int kMostCornerTurns = 120;    // of a plane between the parts at a corner
+constexpr int kMostCornerTurns = 30;     // of a plane between the parts at a corner
 constexpr int kNewtonSteps = 20;
 constexpr double kInside = 1e-6;    // how far from a face's edge a crossing must be
 constexpr double kDistinct = 1e-6;  // how far apart at rest, of the volume's size
@@ -55,6 +55,26 @@ glm::dvec3 middle(std::span<const glm::dvec3> points) {
     sum += p;
   }
   return sum / static_cast<double>(points.size());
+}
+
+/// A normal of a plane that all vectors lie above, if they lie within a narrow wedge of space: the
+/// planes through two of them that have none below are the sides of the cone of all such normals.
+/// 0 if there are none. O(#vectors³) at most.
+glm::dvec3 normal_below(std::span<const glm::dvec3> vectors) {
+  constexpr double kRounding = 1e-12;
+  glm::dvec3 sum(0);
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    for (std::size_t j = 0; j < vectors.size(); ++j) {
+      const glm::dvec3 normal = unit(glm::cross(vectors[i], vectors[j]));
+      const auto is_above = [&](const glm::dvec3& v) {
+        return glm::dot(v, normal) >= -kRounding * glm::length(v);
+      };
+      if (std::ranges::all_of(vectors, is_above)) {
+        sum += normal;
+      }
+    }
+  }
+  return sum;
 }
 
 bool contains(const ParameterRectangle& rectangle, const glm::dvec2& corner) {
@@ -250,23 +270,31 @@ bool FacePairTester::are_divided_at(const Part& a, const CornerUse& of_a, const 
     normal += unit(v);
   }
   for (int turn = 0; turn < kMostCornerTurns; ++turn) {
-    normal = unit(normal);
-    const double slack = 2 * tolerance_ * sum_of_sizes(normal);
-    double worst = std::numeric_limits<double>::infinity();
-    glm::dvec3 missed(0);
-    for (const glm::dvec3& v : room_) {
-      const double height = glm::dot(v, normal) - slack;
-      if (const double length = glm::length(v); !(height > 0) && height < worst * length) {
-        worst = height / length;
-        missed = v / length;
-      }
-    }
+    const glm::dvec3 missed = turn_above(normal);
     if (missed == glm::dvec3(0)) {
       return true;
     }
-    normal += (0.1 - worst) * missed;
+    normal += missed;
   }
-  return false;
+  normal = normal_below(room_);
+  return turn_above(normal) == glm::dvec3(0);
+}
+
+/// How a normal turns towards the vector of room_ that lies farthest below its plane; 0 if all lie
+/// above it. The normal gets length 1.
+glm::dvec3 FacePairTester::turn_above(glm::dvec3& normal) const {
+  normal = unit(normal);
+  const double slack = 2 * tolerance_ * sum_of_sizes(normal);
+  double worst = std::numeric_limits<double>::infinity();
+  glm::dvec3 missed(0);
+  for (const glm::dvec3& v : room_) {
+    const double height = glm::dot(v, normal) - slack;
+    if (const double length = glm::length(v); !(height > 0) && height < worst * length) {
+      worst = height / length;
+      missed = v / length;
+    }
+  }
+  return missed == glm::dvec3(0) ? missed : (0.1 - worst) * missed;
 }
 
 bool FacePairTester::is_apart(const Part& a, const Part& b, bool is_one) {

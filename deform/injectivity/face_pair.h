@@ -57,6 +57,7 @@ class FacePairTester {
                                 const SeamUse& of_b);
   [[nodiscard]] bool are_divided_at(const Part& a, const CornerUse& of_a, const Part& b,
                                     const CornerUse& of_b);
+  [[nodiscard]] glm::dvec3 turn_above(glm::dvec3& normal) const;
   [[nodiscard]] bool have_separate_slopes();
   void append_slopes(std::size_t face, const ParameterRectangle& where, const glm::dvec2& signs,
                      int across);
