@@ -108,7 +108,7 @@ LimbPart limb_part(std::span<const glm::dvec3> points,
   const std::size_t beyond = nearest_point(points, cut, joint, true);
   const std::size_t before = nearest_point(points, cut, joint, false);
   if (beyond == points.size() || before == points.size()) {
-    return {std::vector<double>(points.size(), 1.0), cut.radius(cut.n_crossing())};
+    return {std::vector<double>(points.size(), 1.0), 0, cut.radius(cut.n_crossing())};
   }
   std::size_t too_few = 0;
   std::size_t enough = cut.n_crossing();
@@ -121,12 +121,13 @@ LimbPart limb_part(std::span<const glm::dvec3> points,
       enough = n;
     }
   }
-  LimbPart part{std::vector<double>(points.size(), 0.0), cut.radius(enough)};
+  LimbPart part{std::vector<double>(points.size(), 0.0), 0, cut.radius(enough)};
   JoinedPoints joined = cut.without(enough);
   const std::size_t limb = joined.set_of(beyond);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (joined.set_of(i) == limb) {
       part.shares[i] = 1;
+      ++part.n_parted;
     } else if (!cut.is_beyond(i) && part.radius > 0) {
       const glm::dvec3 offset = points[i] - joint;
       const double across = glm::length(offset - direction * glm::dot(offset, direction));

@@ -3,6 +3,7 @@
 /// Which part of a lattice is a limb.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
@@ -13,6 +14,7 @@ namespace espalier {
 /// What a cut at a joint parts from the rest.
 struct LimbPart {
   std::vector<double> shares;  ///< #points, 0 to 1: of each, in how the limb moves
+  std::size_t n_parted = 0;    ///< points that the cut parts from the rest; 0 without a cut
   double radius = 0;           ///< of the cut: half the limb's thickness there
 };
 

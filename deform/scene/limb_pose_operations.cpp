@@ -1,5 +1,7 @@
 /// Operations that pose limbs: each changes a lattice's pose as it is now.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -23,13 +25,23 @@ using Points = std::vector<glm::dvec3>;
 /// Where some of a lattice's posed points go.
 using PoseMap = std::function<Points(const Lattice&, const Points&, const Arguments&)>;
 
-/// The limb that `about` and `along` describe; throws ParameterError without these.
+/// The limb that `about` and `along` describe; throws ParameterError without these, and for what is
+/// the larger part of the lattice.
 LimbPart limb_of(const Lattice& lattice, const Arguments& arguments) {
   if (!arguments.has("along") || arguments.vector("along") == glm::dvec3(0)) {
     throw ParameterError("'limb' needs --along, the direction of the limb, not zero");
   }
-  return limb_part(lattice.posed_points(), lattice.net(), arguments.vector("about"),
-                   arguments.vector("along"));
+  const glm::dvec3 joint = arguments.vector("about");
+  LimbPart limb =
+      limb_part(lattice.posed_points(), lattice.net(), joint, arguments.vector("along"));
+  if (2 * limb.n_parted > limb.shares.size()) {
+    throw ParameterError(fmt::format(
+        "'limb': the cut at ({:.6g}, {:.6g}, {:.6g}) parts {} of the lattice's {} control points, "
+        "more than a limb: put the joint where the limb hangs together with nothing else, or give "
+        "the lattice more cells",
+        joint.x, joint.y, joint.z, limb.n_parted, limb.shares.size()));
+  }
+  return limb;
 }
 
 bool is_of_limb(const Arguments& arguments) {

@@ -129,6 +129,11 @@ TEST(PoseOperations, limb_turns_one_of_two_legs_that_lie_beyond_the_joint) {
   EXPECT_EQ(refusal("pose rotate lattice=box about=0,0,0 along=1,0,0 angle=30 limb=true "
                     "vertices=0"),
             "'limb' and --vertices exclude each other");
+  EXPECT_THROW((void)done(scene,
+                          "pose rotate lattice=u about=2.5,3.5,0.5 along=0,-1,0 axis=1,0,0 "
+                          "angle=30 limb=true"),
+               ParameterError)
+      << "both legs and all between them";
 }
 
 TEST(PoseOperations, save_deformed_writes_what_the_bound_lattices_do_and_leaves_the_scene) {
