@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <set>
 #include <sstream>
@@ -276,6 +277,48 @@ TEST_F(SessionTest, undo_to_the_start_and_redo_save_the_same_bytes) {
   EXPECT_EQ(read_file(path("bar_bent.json")), lattice);
 }
 
+TEST_F(SessionTest, saving_writes_the_pose_of_every_lattice_that_bends_a_model) {
+  press({"b"});
+  ASSERT_TRUE(
+      session_.apply(parse_call("new box min=-9,-9,-9 max=9,9,9 output=" + path("second.json"))));
+  session_.choose_lattice(path("second.json"));
+  press({"b", "ctrl+3", "1", "a", "g", "y", "1", "enter"});
+  session_.choose_lattice(path("bar.json"));
+  press({"ctrl+s"});
+  EXPECT_TRUE(std::filesystem::exists(path("bar_bent.json")));
+  EXPECT_NE(read_file(path("second_bent.json")).find("\"pose\""), std::string::npos);
+}
+
+TEST_F(SessionTest, saving_elsewhere_spares_the_model_and_asks_before_it_replaces) {
+  press({"b", "ctrl+3"});
+  select_end();
+  press({"g", "y", "1", "enter"});
+  session_.save_as(path("model.obj"), path("model.obj"));
+  EXPECT_EQ(read_file(path("model.obj")), kModel);
+  EXPECT_NE(session_.messages().back().find("is the model as it was opened"), std::string::npos);
+  session_.save_as(path("bar.json"), "");
+  EXPECT_EQ(session_.messages().back(), "Type the name of the file to write first.");
+  std::ofstream(path("other.obj")) << "mine";
+  session_.save_as(path("model.obj"), path("other.obj"));
+  EXPECT_EQ(read_file(path("other.obj")), "mine");
+  session_.save_as(path("model.obj"), path("other.obj"));
+  EXPECT_EQ(session_.messages().back(), "Saved " + path("other.obj") + ".");
+  press({"ctrl+s"});
+  EXPECT_EQ(read_file(path("other.obj")), read_file(path("model_bent.obj")));
+}
+
+TEST_F(SessionTest, recovery_writes_no_file_again) {
+  press({"b", "ctrl+3"});
+  select_end();
+  press({"g", "y", "1", "enter", "ctrl+s"});
+  const std::string text = session_.journal().text();
+  std::ofstream(path("model_bent.obj")) << "mine";
+  Session other;
+  EXPECT_TRUE(other.recover(text));
+  EXPECT_EQ(read_file(path("model_bent.obj")), "mine");
+  EXPECT_EQ(other.scene().bound.size(), 1u);
+}
+
 TEST_F(SessionTest, a_lock_holds_while_points_are_dragged_and_in_what_is_saved) {
   press({"b", "ctrl+3", "1", "a"});
   const Arguments lock(
@@ -396,7 +439,12 @@ TEST_F(SessionTest, a_journal_replays_to_the_same_scene) {
   std::filesystem::remove(path("bar_bent.json"));
   Session other;
   EXPECT_TRUE(other.recover(session_.journal().text())) << other.messages().front();
-  EXPECT_EQ(other.journal().text(), session_.journal().text());
+  EXPECT_FALSE(std::filesystem::exists(path("model_bent.obj")));
+  EXPECT_EQ(other.journal().text() + "save deformed model=" + path("model.obj") +
+                " path=" + path("model_bent.obj") + "\nsave name=" + path("bar.json") +
+                " path=" + path("bar_bent.json") + "\n",
+            session_.journal().text());
+  other.save();
   EXPECT_EQ(read_file(path("model_bent.obj")), model);
   EXPECT_EQ(read_file(path("bar_bent.json")), lattice);
 }

@@ -144,7 +144,10 @@ class Window {
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int held) {
       of(w).on_button(button, action, held);
     });
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { of(w).on_move(); });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+      of(w).cursor_ = {x, y};
+      of(w).on_move();
+    });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double steps) {
       of(w).events_.emplace_back(Scroll{steps});
     });
@@ -191,12 +194,17 @@ class Window {
     }
   }
 
-  /// Where the mouse is, in pixels of the frame buffer.
+  /// Where the mouse was at the event that is told, in pixels of the frame buffer: during a slow
+  /// frame it goes on, and GLFW would ask where it is now.
   [[nodiscard]] glm::dvec2 mouse() const {
     glm::dvec2 at(0.0);
     int width = 1;
     int height = 1;
-    glfwGetCursorPos(window_, &at.x, &at.y);
+    if (cursor_) {
+      at = *cursor_;
+    } else {
+      glfwGetCursorPos(window_, &at.x, &at.y);
+    }
     glfwGetWindowSize(window_, &width, &height);
     const Resize pixels = size();
     return at * glm::dvec2(pixels.width, pixels.height) /
@@ -204,6 +212,7 @@ class Window {
   }
 
   GLFWwindow* window_ = nullptr;
+  std::optional<glm::dvec2> cursor_;  // once it moved
   std::vector<Event> events_;
   std::vector<std::string> dropped_;
 };

@@ -73,7 +73,10 @@ void replay(const std::string& text, Journal& journal, const Progress& progress)
       continue;
     }
     try {
-      journal.apply(parse_call(line), progress);
+      const OperationCall call = parse_call(line);
+      if (operation_named(call.operation).changes_scene) {
+        journal.apply(call, progress);
+      }
     } catch (const Cancelled&) {
       throw;
     } catch (const Error& error) {

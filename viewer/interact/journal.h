@@ -52,8 +52,9 @@ class Journal {
   std::size_t n_saved_ = 0;
 };
 
-/// Does every line of a journal's text; empty lines and those that begin with # are skipped. Throws
-/// ParameterError naming the line that cannot be read or done; the lines before it stay done.
+/// Does every line of a journal's text; empty lines and those that begin with # are skipped, and so
+/// are those that would write a file once more, which may be another one now. Throws ParameterError
+/// naming the line that cannot be read or done; the lines before it stay done.
 void replay(const std::string& text, Journal& journal, const Progress& progress = {});
 
 }  // namespace espalier::viewer

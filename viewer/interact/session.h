@@ -94,9 +94,12 @@ class Session {
   void end_preview();
   /// Does what a form says, and chooses the lattice that it makes.
   void run_form(const OperationCall& call);
-  /// Writes every bound model, bent, and the chosen lattice with its pose beside their files, as
-  /// NAME_bent.EXTENSION.
+  /// Writes every bound model, bent, and the lattices that bend them and the chosen one, with their
+  /// poses, beside their files, as NAME_bent.EXTENSION.
   void save();
+  /// Writes a model, bent, or a lattice; over the file of an open model never, over another one
+  /// when asked twice.
+  void save_as(const std::string& name, const std::string& path);
   void undo();
   void redo();
   void frame_all();
@@ -186,6 +189,7 @@ class Session {
   Handling handling_;
   Show show_;
   std::string lattice_;
+  std::string replaced_;  ///< the file that save_as() may write over
   LatticeElements elements_;
   std::optional<Lattice> elements_source_;
   Visible visible_;

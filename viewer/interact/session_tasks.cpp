@@ -149,19 +149,50 @@ void Session::run_form(const OperationCall& call) {
 
 void Session::save() {
   std::set<std::string> models;
+  std::set<std::string> lattices;
   for (const auto& [key, bound] : scene().bound) {
     models.insert(key.first);
+    lattices.insert(key.second);
+  }
+  if (!lattice_.empty()) {
+    lattices.insert(lattice_);
   }
   bool is_saved = true;
   for (const std::string& model : models) {
     is_saved &= apply({"save deformed", Arguments({{"model", model}, {"path", bent_path(model)}})});
   }
-  if (!lattice_.empty()) {
-    is_saved &= apply({"save", Arguments({{"name", lattice_}, {"path", bent_path(lattice_)}})});
+  for (const std::string& lattice : lattices) {
+    is_saved &= apply({"save", Arguments({{"name", lattice}, {"path", bent_path(lattice)}})});
   }
   if (is_saved) {
     journal_.mark_saved();
     say("Saved beside the files that were opened, as NAME_bent.");
+  }
+}
+
+void Session::save_as(const std::string& name, const std::string& path) {
+  if (path.empty()) {
+    say("Type the name of the file to write first.");
+    return;
+  }
+  std::error_code failure;
+  for (const auto& [model, content] : scene().models) {
+    if (std::filesystem::equivalent(model, path, failure)) {
+      say(path + " is the model as it was opened: write what is bent elsewhere, such as to " +
+          bent_path(model) + ".");
+      return;
+    }
+  }
+  if (std::filesystem::exists(path, failure) && path != replaced_) {
+    replaced_ = path;
+    say(path + " is there already: save once more to replace it.");
+    return;
+  }
+  const std::string operation = scene().models.contains(name) ? "save deformed" : "save";
+  const std::string parameter = scene().models.contains(name) ? "model" : "name";
+  if (apply({operation, Arguments({{parameter, name}, {"path", path}})})) {
+    replaced_ = path;
+    say("Saved " + path + ".");
   }
 }
 

@@ -19,6 +19,12 @@ void open(const std::string& file, PanelState& state, std::vector<Action>& actio
   state.opened = file;
 }
 
+/// What is typed, in the folder that is shown unless it holds a slash.
+std::string path_of(const PanelState& state) {
+  const bool is_here = !state.path.empty() && state.path.find('/') == std::string::npos;
+  return is_here ? (std::filesystem::path(state.folder) / state.path).string() : state.path;
+}
+
 /// A path that is a folder is gone to; another one is opened.
 void go_to(const std::string& path, PanelState& state, std::vector<Action>& actions) {
   std::error_code failure;
@@ -46,20 +52,22 @@ void draw_folder(PanelState& state, std::vector<Action>& actions) {
   ImGui::EndChild();
 }
 
-void draw_saving(const Session& session, const PanelState& state, std::vector<Action>& actions) {
-  const bool has_path = !state.path.empty();
-  if (ImGui::Button("Save the lattice there") && has_path && !session.lattice().empty()) {
-    actions.emplace_back([path = state.path](Session& target) {
-      target.apply({"save", Arguments({{"name", target.lattice()}, {"path", path}})});
-    });
+/// Messages are told behind this panel.
+void save(const std::string& name, PanelState& state, std::vector<Action>& actions) {
+  actions.emplace_back(
+      [name, path = path_of(state)](Session& target) { target.save_as(name, path); });
+  state.shows_files = false;
+}
+
+void draw_saving(const Session& session, PanelState& state, std::vector<Action>& actions) {
+  if (ImGui::Button("Save the lattice there") && !session.lattice().empty()) {
+    save(session.lattice(), state, actions);
   }
   for (const auto& [name, model] : session.scene().models) {
     const std::string label =
         "Save bent there: " + std::filesystem::path(name).filename().string() + "##" + name;
-    if (ImGui::Button(label.c_str()) && has_path) {
-      actions.emplace_back([path = state.path, chosen = name](Session& target) {
-        target.apply({"save deformed", Arguments({{"model", chosen}, {"path", path}})});
-      });
+    if (ImGui::Button(label.c_str())) {
+      save(name, state, actions);
     }
   }
 }
@@ -78,9 +86,7 @@ void draw_file_panel(const Session& session, PanelState& state, std::vector<Acti
       ImGui::InputText("path", &state.path, ImGuiInputTextFlags_EnterReturnsTrue);
   ImGui::SameLine();
   if ((ImGui::Button("Open") || is_entered) && !state.path.empty()) {
-    const bool is_here = state.path.find('/') == std::string::npos;
-    go_to(is_here ? (std::filesystem::path(state.folder) / state.path).string() : state.path, state,
-          actions);
+    go_to(path_of(state), state, actions);
   }
   draw_folder(state, actions);
   draw_saving(session, state, actions);
