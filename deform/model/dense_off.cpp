@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -129,8 +130,8 @@ class OffDenseFile final : public DenseFile {
       for (int axis = 0; axis < 3; ++axis) {
         append(mesh.points[i][axis], model_.layout().encoding);
       }
-      std::vector<double> extras(&mesh.extras[i * n_extras_],
-                                 &mesh.extras[i * n_extras_] + n_extras_);
+      const auto of_point = std::span(mesh.extras).subspan(i * n_extras_, n_extras_);
+      std::vector<double> extras(of_point.begin(), of_point.end());
       if (n_normal_ > 0) {
         const glm::dvec3 normal = unit_or_zero({extras[0], extras[1], extras[2]});
         std::copy_n(&normal.x, 3, extras.begin());

@@ -103,8 +103,8 @@ class PlyDenseFile final : public DenseFile {
     PlyWriter writer(rows_.header().encoding, line_end_);
     for (std::size_t i = mesh_.points.size(); i < mesh.points.size(); ++i) {
       writer.end_line();
-      std::vector<double> extras(&mesh.extras[i * mesh.n_extras],
-                                 &mesh.extras[i * mesh.n_extras] + mesh.n_extras);
+      const auto of_point = std::span(mesh.extras).subspan(i * mesh.n_extras, mesh.n_extras);
+      std::vector<double> extras(of_point.begin(), of_point.end());
       make_normal_unit(rows_.vertex(), extras);
       std::size_t extra = 0;
       for (const PlyProperty& property : rows_.vertex().properties) {
