@@ -15,6 +15,7 @@
 #include <span>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "lattice/core/box.h"
 
@@ -297,6 +298,66 @@ glm::dvec3 FacePairTester::turn_above(glm::dvec3& normal) const {
   return missed == glm::dvec3(0) ? missed : (0.1 - worst) * missed;
 }
 
+/// The seams: of an edge across each parameter, along all of it.
+bool FacePairTester::are_divided_along(const Part& a, const std::array<SeamUse, 2>& of_a,
+                                       const Part& b, const std::array<SeamUse, 2>& of_b) const {
+  const FaceNet& net = mesh_.pose[a.face];
+  const auto place = [&](int s, int t) { return net.value({s, t}); };
+  const int s = of_a[0].side;
+  const int t = of_a[1].side;
+  const glm::dvec3 corner = place(s, t);
+  const glm::dvec3 normal = unit(glm::cross(place(1 - s, t) - corner, place(s, 1 - t) - corner));
+  const double slack = 2 * tolerance_ * sum_of_sizes(normal);
+  std::array<double, 2> least;
+  std::array<double, 2> most;
+  for (const auto& [which, part, seams] : {std::tuple(0U, &a, &of_a), std::tuple(1U, &b, &of_b)}) {
+    const auto n = static_cast<std::size_t>(mesh_.pose[part->face].degree(0)) + 1;
+    const std::size_t m = part->points.size() / n;
+    const std::size_t edge_i = (*seams)[0].side == 0 ? 0 : n - 1;
+    const std::size_t edge_j = (*seams)[1].side == 0 ? 0 : m - 1;
+    least[which] = std::numeric_limits<double>::infinity();
+    most[which] = -least[which];
+    for (std::size_t k = 0; k < part->points.size(); ++k) {
+      const double height = glm::dot(part->points[k] - corner, normal);
+      if (k % n != edge_i && k / n != edge_j) {
+        least[which] = std::min(least[which], height);
+        most[which] = std::max(most[which], height);
+      } else if (!(std::abs(height) <= slack)) {
+        return false;
+      }
+    }
+  }
+  return (least[0] > slack && most[1] < -slack) || (most[0] < -slack && least[1] > slack);
+}
+
+bool FacePairTester::share_two_straight_edges(const Part& a, const Part& b) const {
+  const auto is_whole = [](const Part& part) {
+    return part.where.low == glm::dvec2(0) && part.where.high == glm::dvec2(1);
+  };
+  if (a.face == b.face || !is_whole(a) || !is_whole(b)) {
+    return false;
+  }
+  std::vector<std::pair<SeamUse, SeamUse>> shared;
+  for (const SeamUse& of_a : mesh_.seams[a.face]) {
+    for (const SeamUse& of_b : mesh_.seams[b.face]) {
+      if (of_a.seam == of_b.seam && std::abs(of_a.end - of_a.begin) == 1 &&
+          std::abs(of_b.end - of_b.begin) == 1) {
+        shared.emplace_back(of_a, of_b);
+      }
+    }
+  }
+  for (const auto& [a0, b0] : shared) {
+    for (const auto& [a1, b1] : shared) {
+      if (a0.across == 0 && a1.across == 1 && b0.across != b1.across &&
+          are_divided_along(a, {a0, a1}, b,
+                            b0.across == 0 ? std::array{b0, b1} : std::array{b1, b0})) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 bool FacePairTester::is_apart(const Part& a, const Part& b, bool is_one) {
   if (!is_one && have_separate_hulls(a, b)) {
     return true;
@@ -324,7 +385,7 @@ bool FacePairTester::is_apart(const Part& a, const Part& b, bool is_one) {
       }
     }
   }
-  return false;
+  return share_two_straight_edges(a, b);
 }
 
 bool FacePairTester::meet_at_leaf(std::size_t a, std::size_t b) const {

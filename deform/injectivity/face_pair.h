@@ -28,7 +28,9 @@ struct FacePairResult {
 ///     square in two cones such that n = a × b for a, b of either has n · d > 0 for one d: every
 ///     chord of the square's image is dx · a + dy · b, which is not zero [APS98]; d is the
 ///     direction from which the parts are seen, as in [VM94];
-///   - where they share a corner, with a plane through it between them.
+///   - where they share a corner, with a plane through it between them;
+///   - where they are whole faces that share two straight edges at a corner, with the plane of
+///     these between them: as two sides of the end of a slit do.
 /// Certain within the rounding of control points. Keeps memory from call to call: one a thread.
 class FacePairTester {
  public:
@@ -57,6 +59,9 @@ class FacePairTester {
                                 const SeamUse& of_b);
   [[nodiscard]] bool are_divided_at(const Part& a, const CornerUse& of_a, const Part& b,
                                     const CornerUse& of_b);
+  [[nodiscard]] bool are_divided_along(const Part& a, const std::array<SeamUse, 2>& of_a,
+                                       const Part& b, const std::array<SeamUse, 2>& of_b) const;
+  [[nodiscard]] bool share_two_straight_edges(const Part& a, const Part& b) const;
   [[nodiscard]] glm::dvec3 turn_above(glm::dvec3& normal) const;
   [[nodiscard]] bool have_separate_slopes();
   void append_slopes(std::size_t face, const ParameterRectangle& where, const glm::dvec2& signs,
