@@ -44,8 +44,7 @@ struct CheckReport {
   std::vector<std::string> defects;
   LocalInjectivity local;
   Verdict elsewhere = Verdict::Certified;  // of patches that `local` does not look at
-  bool is_boundary_at_rest = false;
-  BoundaryReport boundary;       // unless it is at rest
+  BoundaryReport boundary;
   std::optional<SafeStep> step;  // of the drag
   bool is_bounded = true;
   bool has_model = false;
@@ -133,9 +132,7 @@ Json json_of(const CheckReport& report) {
                                        {"high", json_of(box.box.high)},
                                        {"rest", json_of(box.rest)}});
   }
-  if (!report.is_boundary_at_rest) {
-    add_boundary(report.boundary, json);
-  }
+  add_boundary(report.boundary, json);
   if (report.has_model) {
     json["volume_change"] = report.volume_change ? Json(*report.volume_change) : Json();
   }
@@ -220,23 +217,6 @@ std::string text_of(const std::string& path, const CheckReport& report) {
   return text;
 }
 
-/// Whether no patch with a face on the boundary moves: then the boundary is as simple as at rest.
-bool is_boundary_at_rest(const Volume& volume, const PosedControls& pose) {
-  const std::vector<glm::dvec3> moves = volume.displacements(pose.points);
-  const auto is_moved = [&](std::int32_t point) {
-    const auto p = static_cast<std::size_t>(point);
-    return moves[p] != glm::dvec3(0) ||
-           (!pose.weights.empty() && pose.weights[p] != volume.weights()[p]);
-  };
-  for (std::size_t i = 0; i < volume.n_patches(); ++i) {
-    const auto block = volume.block(i);
-    if (volume.patch(i).boundary_faces != 0 && std::any_of(block.begin(), block.end(), is_moved)) {
-      return false;
-    }
-  }
-  return true;
-}
-
 /// The patches that hold a point of the model.
 std::vector<std::int32_t> patches_of(const Binding& binding) {
   std::vector<std::int32_t> patches = binding.patches;
@@ -313,10 +293,7 @@ CheckReport check_lattice(const Arguments& arguments, const Session& session) {
   } else {
     report.local = check.local(pose);
   }
-  report.is_boundary_at_rest = is_boundary_at_rest(*volume, pose);
-  if (!report.is_boundary_at_rest) {
-    report.boundary = check_boundary(*volume, posed.points, weights, {}, session.progress);
-  }
+  report.boundary = check_boundary(*volume, posed.points, weights, {}, session.progress);
   if (arguments.has("drag")) {
     add_step(check, pose, arguments.texts("drag"), report);
   }

@@ -108,6 +108,21 @@ TEST_F(CheckCommand, shows_where_a_bar_passes_through_itself) {
             std::string::npos);
 }
 
+TEST_F(CheckCommand, certifies_no_lattice_that_passes_through_itself_at_rest) {
+  done({"new", "bspline", "--counts", "20", "4", "4", "--max", "20", "1", "1", "-o", "bar.json"});
+  Json lattice = read_json("bar.json");
+  for (Json& point : lattice["rest"]) {
+    const glm::dvec3 x = point_of(point);
+    const double radius = x.y + 20 / 6.6;
+    point = {radius * std::sin(0.33 * x.x), radius * std::cos(0.33 * x.x), x.z + 0.02 * x.x};
+  }
+  write_json("ring.json", lattice);
+  const Json json = report({"ring.json"}, 3);
+  EXPECT_EQ(json["local"], "certified");
+  EXPECT_EQ(json["boundary"], "undecided");
+  EXPECT_EQ(json["injective"], "undecided");
+}
+
 TEST_F(CheckCommand, leaves_a_boundary_that_only_touches_itself_undecided) {
   done({"new", "box", "--cells", "6", "1", "1", "--min", "0", "0", "0", "--max", "6", "1", "1",
         "-o", "bar.json"});
