@@ -200,6 +200,9 @@ void Session::choose_lattice(const std::string& name) {
 
 void Session::set_mode(Mode mode) {
   cancel_transform();
+  if (mode != mode_) {
+    forget_messages();  // they were about the other mode
+  }
   mode_ = mode;
   refresh();
 }
@@ -277,6 +280,9 @@ std::string Session::status() const {
     return scene().models.empty()
                ? "Open a model or a lattice: drop their files here, or press F2."
                : "Make a lattice round the model: press n for a box, or F3 for all kinds.";
+  }
+  if (mode_ == Mode::Bind) {
+    return "b ties the models to the lattice   Tab: on to the pose   F1 help";
   }
   const bool is_blender = handling_.preset == Preset::Blender;
   return std::to_string(selection_.size()) + " selected   " +
