@@ -90,8 +90,10 @@ float draw_object_panel(const Session& session, std::vector<Action>& actions) {
     for (const auto& [names, bound] : scene.bound) {
       if (names.first == name) {
         const StatusCounts counts = bound.binding->counts();
-        ImGui::TextColored(kFaint, "  %zu inside, %zu outside", counts.inside + counts.border,
-                           counts.outside + counts.unconverged);
+        const std::string which =
+            scene.lattices.size() > 1 ? ": " + file_name(names.second) : std::string();
+        ImGui::TextColored(kFaint, "  %zu inside, %zu outside%s", counts.inside + counts.border,
+                           counts.outside + counts.unconverged, which.c_str());
         if (session.mode() == Mode::Pose) {
           draw_lock(names, bound.lock, actions);
         }

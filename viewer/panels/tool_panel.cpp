@@ -27,10 +27,10 @@ bool choice(const char* label, bool is_on, float width) {
 }
 
 /// A button for a command of the table, with its key beside it.
-void command_button(const char* label, const char* chord, float width,
-                    std::vector<Action>& actions) {
+void command_button(const char* label, const char* chord, float width, std::vector<Action>& actions,
+                    Preset preset = Preset::Blender) {
   if (ImGui::Button(label, ImVec2(width, 0))) {
-    for (const Command& command : commands(Preset::Blender)) {
+    for (const Command& command : commands(preset)) {
       if (command.keys == chord) {
         actions.emplace_back(command.run);
       }
@@ -170,13 +170,17 @@ void draw_tool_panel(const Session& session, PanelState& state, std::vector<Acti
     command_button("Bind  (b)", "b", full, actions);
   } else {
     draw_kinds(session, half, actions);
-    command_button("Move  (g)", "g", half, actions);
+    const Preset preset = session.handling().preset;
+    const bool is_maya = preset == Preset::Maya;
+    command_button(is_maya ? "Move  (w)" : "Move  (g)", is_maya ? "w" : "g", half, actions, preset);
     ImGui::SameLine();
-    command_button("Turn  (r)", "r", half, actions);
-    command_button("Scale  (s)", "s", half, actions);
+    command_button(is_maya ? "Turn  (e)" : "Turn  (r)", is_maya ? "e" : "r", half, actions, preset);
+    command_button(is_maya ? "Scale  (r)" : "Scale  (s)", is_maya ? "r" : "s", half, actions,
+                   preset);
     ImGui::SameLine();
     if (session.mode() == Mode::Lattice) {
-      command_button("Extrude (e)", "e", half, actions);
+      command_button(is_maya ? "Extrude" : "Extrude (e)", is_maya ? "ctrl+e" : "e", half, actions,
+                     preset);
       command_button("New box  (n)", "n", full, actions);
       operation_menu("another lattice ...", makes_lattices, session, state);
       operation_menu("change the lattice ...", edits_lattices, session, state);
