@@ -2,9 +2,12 @@
 
 /// Polynomials of integers, exact: what certificates in floating point are held against.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <random>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -143,6 +146,28 @@ inline std::vector<IntegerPoint> random_points(int degree, int number, std::mt19
     points[n * n][2] += number % 4 == 0 ? 0 : step(random);
   }
   return points;
+}
+
+/// The largest error of Bernstein coefficients, beside the exact ones times `factor`, as a part of
+/// the error that is claimed: above 1 the claim is wrong.
+inline double used_part_of_error(const ExactNet& exact, long double factor,
+                                 std::span<const double> coefficients, double claimed) {
+  double most = 0;
+  const std::array<int, 3>& size = exact.size;
+  for (int k = 0; k < size[2]; ++k) {
+    for (int j = 0; j < size[1]; ++j) {
+      for (int i = 0; i < size[0]; ++i) {
+        const std::size_t at = exact.at(i, j, k);
+        const long double expected =
+            static_cast<long double>(exact.values[at]) * factor /
+            static_cast<long double>(binomial(size[0] - 1, i) * binomial(size[1] - 1, j) *
+                                     binomial(size[2] - 1, k));
+        const long double error = static_cast<long double>(coefficients[at]) - expected;
+        most = std::max(most, std::abs(static_cast<double>(error)) / claimed);
+      }
+    }
+  }
+  return most;
 }
 
 }  // namespace espalier::test
