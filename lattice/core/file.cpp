@@ -128,7 +128,7 @@ void write_file(const std::string& path, std::string_view bytes) {
     return;
   }
   const std::string target = resolve_links(path);
-  std::string temporary = target + ".XXXXXX";
+  std::string temporary = target + "." + std::string(6, 'X');  // mkstemp() puts letters there
   Descriptor file(::mkstemp(temporary.data()));
   if (file.get() < 0) {
     fail(path, "cannot write");

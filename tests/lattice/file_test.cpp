@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "lattice/core/error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace espalier {
 namespace {
@@ -20,21 +21,14 @@ namespace fs = std::filesystem;
 /// A folder of its own for every test.
 class File : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = testing::TempDir() + "espalier_file_XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  [[nodiscard]] std::string path(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_.path(name); }
   [[nodiscard]] std::size_t n_files() const {
     return static_cast<std::size_t>(
-        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+        std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
   }
 
  private:
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 /// Lets files grow to `bytes` only, for one scope.

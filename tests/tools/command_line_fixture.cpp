@@ -1,7 +1,5 @@
 #include "tests/tools/command_line_fixture.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <sstream>
 
@@ -12,17 +10,13 @@
 namespace espalier::tools {
 
 void CommandLineTest::SetUp() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "espalier_XXXXXX").string();
-  ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-  folder_ = pattern;
   folder_before_ = std::filesystem::current_path();
-  std::filesystem::current_path(folder_);
+  std::filesystem::current_path(folder_.path());
 }
 
 void CommandLineTest::TearDown() {
   set_thread_count(0);
   std::filesystem::current_path(folder_before_);
-  std::filesystem::remove_all(folder_);
 }
 
 Outcome CommandLineTest::run(const std::vector<std::string>& words) {

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.h"
+
 namespace espalier::tools {
 
 using Json = nlohmann::ordered_json;
@@ -39,7 +41,7 @@ class CommandLineTest : public ::testing::Test {
   static std::vector<std::string> files();
 
  private:
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
   std::filesystem::path folder_before_;
 };
 

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "lattice/core/file.h"
 #include "lattice/io/lattice_file.h"
 #include "tests/support/families.h"
+#include "tests/support/temporary_folder.h"
 #include "tools/command_line.h"
 
 namespace espalier::test {
@@ -45,15 +45,12 @@ struct Outcome {
 class DeformCommand : public ::testing::Test {
  protected:
   DeformCommand() {
-    std::string name = (std::filesystem::temp_directory_path() / "espalier.XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
     write("model.obj", kModel);
     add_lattice("box.json", "shifted.json", {0.5, 0, 0});
     add_lattice("other.json", "raised.json", {0, 0, 0.25});
   }
-  ~DeformCommand() override { std::filesystem::remove_all(folder_); }
 
-  [[nodiscard]] std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_.path(name); }
   void write(const std::string& name, const std::string& bytes) const {
     write_file(path(name), bytes);
   }
@@ -121,7 +118,7 @@ class DeformCommand : public ::testing::Test {
   }
 
  private:
-  std::string folder_;
+  test::TemporaryFolder folder_;
 };
 
 }  // namespace espalier::test

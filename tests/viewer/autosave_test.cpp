@@ -8,23 +8,18 @@
 
 #include "lattice/core/error.h"
 #include "lattice/core/file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace espalier::viewer {
 namespace {
 
 class AutosaveTest : public ::testing::Test {
  protected:
-  AutosaveTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "espalier.XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~AutosaveTest() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] std::string path() const { return folder_ + "/journal"; }
+  [[nodiscard]] std::string path() const { return folder_.path("journal"); }
   [[nodiscard]] bool has_file() const { return std::filesystem::exists(path()); }
   void add_box() { journal_.apply(parse_call("new box cells=1,1,1 output=box.json")); }
 
-  std::string folder_;
+  test::TemporaryFolder folder_;
   Journal journal_;
 };
 
@@ -133,7 +128,7 @@ TEST_F(AutosaveTest, without_a_path_nothing_is_kept) {
 }
 
 TEST_F(AutosaveTest, a_file_that_cannot_be_written_is_told) {
-  Autosave autosave(folder_ + "/none/journal");
+  Autosave autosave(folder_.path("none/journal"));
   add_box();
   EXPECT_THROW(autosave.keep(journal_, 0), FileError);
   EXPECT_NO_THROW(autosave.keep(journal_, 10));  // told once

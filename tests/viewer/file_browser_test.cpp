@@ -5,13 +5,14 @@
 #include <filesystem>
 
 #include "lattice/core/file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace espalier::viewer {
 namespace {
 
 TEST(FileBrowser, lists_folders_then_what_can_be_opened_by_name) {
-  std::string folder = (std::filesystem::temp_directory_path() / "espalier.XXXXXX").string();
-  ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+  const test::TemporaryFolder temporary;
+  const std::string& folder = temporary.path();
   std::filesystem::create_directory(folder + "/zoo");
   for (const char* name : {"b.obj", "A.JSON", "notes.txt", ".hidden.obj", "c.Ply"}) {
     write_file(folder + "/" + name, "");
@@ -24,7 +25,6 @@ TEST(FileBrowser, lists_folders_then_what_can_be_opened_by_name) {
   EXPECT_EQ(folder_above(folder + "/zoo"), folder);
   EXPECT_EQ(folder_above(folder + "/zoo/"), folder);
   EXPECT_EQ(folder_above("/"), "/");
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

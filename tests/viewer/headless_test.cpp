@@ -11,6 +11,7 @@
 #include "lattice/core/error.h"
 #include "lattice/core/file.h"
 #include "lattice/io/lattice.h"
+#include "tests/support/temporary_folder.h"
 
 namespace espalier::viewer {
 namespace {
@@ -19,14 +20,9 @@ constexpr const char* kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n
 
 class HeadlessTest : public ::testing::Test {
  protected:
-  HeadlessTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "espalier.XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-    write_file(path("square.obj"), kSquare);
-  }
-  ~HeadlessTest() override { std::filesystem::remove_all(folder_); }
+  HeadlessTest() { write_file(path("square.obj"), kSquare); }
 
-  [[nodiscard]] std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_.path(name); }
   [[nodiscard]] Picture run(const std::string& script) const {
     return run_headless({{path("square.obj")}, script, "test.script", 800, 600});
   }
@@ -36,7 +32,7 @@ class HeadlessTest : public ::testing::Test {
     return pixel[0] > pixel[2] + 30 && pixel[0] > 100;
   }
 
-  std::string folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(HeadlessTest, shows_the_model_between_the_panels) {

@@ -11,6 +11,7 @@
 
 #include "lattice/core/error.h"
 #include "lattice/core/file.h"
+#include "tests/support/temporary_folder.h"
 #include "viewer/interact/commands.h"
 
 namespace espalier::viewer {
@@ -23,8 +24,6 @@ constexpr const char* kModel =
 class SessionTest : public ::testing::Test {
  protected:
   SessionTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "espalier.XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
     write_file(path("model.obj"), kModel);
     session_.open(path("model.obj"));
     session_.apply({"new box", Arguments({{"cells", std::vector<std::int64_t>{3, 1, 1}},
@@ -32,9 +31,8 @@ class SessionTest : public ::testing::Test {
                                           {"output", path("bar.json")}})});
     session_.frame_all();
   }
-  ~SessionTest() override { std::filesystem::remove_all(folder_); }
 
-  [[nodiscard]] std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_.path(name); }
   void press(const std::vector<std::string>& chords) {
     for (const std::string& chord : chords) {
       session_.handle(KeyPress{chord});
@@ -69,7 +67,7 @@ class SessionTest : public ::testing::Test {
   }
 
   Session session_;
-  std::string folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(SessionTest, a_click_selects_the_vertex_under_the_mouse_and_shift_adds_or_takes_it_away) {
