@@ -13,6 +13,7 @@
 #include "deform/model/model_file.h"
 #include "lattice/core/error.h"
 #include "lattice/topology/face_triangles.h"
+#include "tests/deform/surfaces.h"
 
 namespace espalier {
 namespace {
@@ -29,19 +30,6 @@ std::string error_of(ModelFormat format, const std::string& bytes, double longes
     return error.what();
   }
   return "";
-}
-
-glm::dvec3 area_of(const Model& model) {
-  glm::dvec3 sum(0);
-  std::vector<glm::dvec3> loop;
-  for (std::size_t face = 0; face < model.faces().n_rows(); ++face) {
-    loop.clear();
-    for (const std::int32_t i : model.faces()[face]) {
-      loop.push_back(model.points()[static_cast<std::size_t>(i)]);
-    }
-    sum += area_vector(loop);
-  }
-  return sum;
 }
 
 std::string float_bytes(double number) {
@@ -195,7 +183,7 @@ TEST(DenseStl, of_bytes_keeps_what_stands_at_facets) {
   EXPECT_EQ(bytes.substr(84 + 48, 2), "\x12\x34");
   EXPECT_EQ(bytes.substr(84 + 98, 2), "\x12\x34");
   EXPECT_EQ(bytes.substr(84, 12), facet.substr(0, 12));
-  EXPECT_EQ(area_of(parse_model(ModelFormat::Stl, "d", bytes)), glm::dvec3(0, 0, 2));
+  EXPECT_EQ(test::area_of(parse_model(ModelFormat::Stl, "d", bytes)), glm::dvec3(0, 0, 2));
 }
 
 TEST(DenseStl, by_smooth_methods_consists_of_triangles_with_normals_of_their_own) {
@@ -218,7 +206,7 @@ TEST(DenseStl, by_smooth_methods_consists_of_triangles_with_normals_of_their_own
     const Model model =
         parse_model(ModelFormat::Stl, "d", dense(ModelFormat::Stl, tetrahedron, 2, method));
     EXPECT_EQ(model.faces().n_rows(), n);
-    EXPECT_LT(glm::length(area_of(model)), 1e-6);  // closed
+    EXPECT_LT(glm::length(test::area_of(model)), 1e-6);  // closed
     for (std::size_t facet = 0; facet < model.faces().n_rows(); ++facet) {
       std::vector<glm::dvec3> loop;
       for (const std::int32_t i : model.faces()[facet]) {
@@ -239,7 +227,7 @@ TEST(DenseModelOfAnyFormat, keeps_the_surface_and_reaches_the_length) {
     const Model before = parse_model(format, "m", bytes);
     for (const double longest : {1.0, 0.3, 0.11}) {
       const Model model = parse_model(format, "d", dense(format, bytes, longest));
-      EXPECT_LT(glm::distance(area_of(model), area_of(before)), 1e-6);
+      EXPECT_LT(glm::distance(test::area_of(model), test::area_of(before)), 1e-6);
       EXPECT_EQ(model.groups().size(), before.groups().size());
       for (std::size_t face = 0; face < model.faces().n_rows(); ++face) {
         const auto loop = model.faces()[face];

@@ -11,8 +11,8 @@
 #include "deform/model/polygon_cuts.h"
 #include "deform/scene/densify.h"
 #include "lattice/core/error.h"
-#include "lattice/topology/face_triangles.h"
 #include "tests/deform/odd_obj_files.h"
+#include "tests/deform/surfaces.h"
 #include "tests/support/spline_volume.h"
 
 namespace espalier {
@@ -21,19 +21,6 @@ namespace {
 std::string dense(const std::string& bytes, double longest,
                   DensifyMethod method = DensifyMethod::Midpoint) {
   return std::string(dense_model(parse_obj("m.obj", bytes), method, longest, "d.obj").bytes());
-}
-
-glm::dvec3 area_of(const Model& model) {
-  glm::dvec3 sum(0);
-  std::vector<glm::dvec3> loop;
-  for (std::size_t face = 0; face < model.faces().n_rows(); ++face) {
-    loop.clear();
-    for (const std::int32_t i : model.faces()[face]) {
-      loop.push_back(model.points()[static_cast<std::size_t>(i)]);
-    }
-    sum += area_vector(loop);
-  }
-  return sum;
 }
 
 TEST(DenseModel, stands_in_the_models_own_file) {
@@ -54,7 +41,7 @@ TEST(DenseModel, numbers_elements_anew_that_stand_after_the_first_face) {
       "o b\nv 0 0 5\nv 1 0 5\nv 0 1 5\nvt 1 1\nvn 0 0 1\nf -3/-1/1 -2/2/1 6/2/1\nl 4 -1\nf 1 2 6\n";
   const Model before = parse_obj("m.obj", text);
   const Model after = parse_obj("m.obj", dense(text, 1.2));
-  EXPECT_LT(glm::distance(area_of(before), area_of(after)), 1e-12);
+  EXPECT_LT(glm::distance(test::area_of(before), test::area_of(after)), 1e-12);
   ASSERT_EQ(after.groups().size(), 2u);
   EXPECT_EQ(after.groups()[0].ranges, (std::vector<FaceRange>{{0, 2}}));
   EXPECT_EQ(after.groups()[1].name, "b");
@@ -99,8 +86,9 @@ TEST(DenseModel, of_odd_files_reads_back_with_the_same_surface) {
         continue;  // without faces, or with free-form surfaces
       }
       const Model after = parse_obj("d.obj", bytes);
-      const double size = 1 + glm::length(area_of(before));
-      EXPECT_LT(glm::distance(area_of(before), area_of(after)), 1e-5 * size) << file.what;
+      const double size = 1 + glm::length(test::area_of(before));
+      EXPECT_LT(glm::distance(test::area_of(before), test::area_of(after)), 1e-5 * size)
+          << file.what;
       EXPECT_EQ(after.groups().size(), before.groups().size()) << file.what;
     }
   }

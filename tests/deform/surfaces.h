@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "deform/model/surface_model.h"
+#include "lattice/topology/face_triangles.h"
 
 namespace espalier::test {
 
@@ -87,6 +88,20 @@ inline Surface sphere_surface(const glm::dvec3& centre, double radius, int n) {
     sphere.faces.push_back(std::array{(n - 2) * round + j, north + 1, (n - 2) * round + k});
   }
   return sphere;
+}
+
+/// The sum of the areas of a model's faces, each along its normal.
+inline glm::dvec3 area_of(const Model& model) {
+  glm::dvec3 sum(0);
+  std::vector<glm::dvec3> loop;
+  for (std::size_t face = 0; face < model.faces().n_rows(); ++face) {
+    loop.clear();
+    for (const std::int32_t i : model.faces()[face]) {
+      loop.push_back(model.points()[static_cast<std::size_t>(i)]);
+    }
+    sum += area_vector(loop);
+  }
+  return sum;
 }
 
 }  // namespace espalier::test
