@@ -8,6 +8,7 @@
 #include "deform/model/model_file.h"
 #include "lattice/core/error.h"
 #include "lattice/core/file.h"
+#include "tests/support/temporary_folder.h"
 #include "viewer/render/mesh_drawing.h"
 #include "viewer/render/null_renderer.h"
 #include "viewer/render/offscreen_context.h"
@@ -27,8 +28,6 @@ constexpr const char* kObj =
 class ModelTextureTest : public ::testing::Test {
  protected:
   ModelTextureTest() {
-    folder_ = (std::filesystem::temp_directory_path() / "espalier.XXXXXX").string();
-    folder_ = ::mkdtemp(folder_.data());
     write_file(path("m.mtl"), "newmtl plain\nKd 1 1 1\nnewmtl painted\nmap_Kd -s 1 1 1 p.png\n");
     Picture picture(64, 64);
     for (std::size_t i = 0; i < 64 * 64; ++i) {
@@ -38,10 +37,9 @@ class ModelTextureTest : public ::testing::Test {
     write_png(path("p.png"), picture);
     write_file(path("m.obj"), kObj);
   }
-  ~ModelTextureTest() override { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_.path(name); }
 
-  std::string folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(ModelTextureTest, reads_places_of_corners_and_the_picture_of_their_material) {
@@ -83,24 +81,28 @@ TEST_F(ModelTextureTest, points_are_several_vertices_where_their_places_differ) 
                ParameterError);
 }
 
-TEST_F(ModelTextureTest, the_picture_is_seen_the_right_way_round_and_only_where_it_is) {
-  const OffscreenContext context;
-  const auto renderer = make_opengl_renderer();
-  const Model model = read_model(path("m.obj"));
+/// A model `width` long and 1 high from the front, in its textures: 100 pixels a unit.
+Picture front_picture(const Model& model, int width) {
   const auto texture = find_texture(model);
   const MeshDrawing drawing(
       model.points(), model.faces(),
       {.corner_places = texture->corner_places, .face_groups = texture->face_groups});
   TriangleMesh mesh = drawing.triangle_mesh(model.points());
   mesh.textures = texture_ranges(*texture, drawing.group_sizes());
+  const OffscreenContext context;
+  const auto renderer = make_opengl_renderer();
   renderer->add(mesh);
   Camera camera;
   camera.angles = named_view("front");
   camera.projection = Projection::Orthographic;
   Box box;
   box.add(glm::dvec3(0, 0, 0));
-  box.add(glm::dvec3(2, 1, 0));
-  const Picture picture = renderer->take_picture(camera.fitted_to(box, 2, 0), 200, 100);
+  box.add(glm::dvec3(width, 1, 0));
+  return renderer->take_picture(camera.fitted_to(box, width, 0), 100 * width, 100);
+}
+
+TEST_F(ModelTextureTest, the_picture_is_seen_the_right_way_round_and_only_where_it_is) {
+  const Picture picture = front_picture(read_model(path("m.obj")), 2);
   const auto left = picture.at(25, 50);
   const auto right = picture.at(75, 50);
   const auto clay = picture.at(120, 80);
@@ -138,18 +140,7 @@ TEST_F(ModelTextureTest, every_material_is_seen_with_its_own_picture) {
       model.points(), model.faces(),
       {.corner_places = texture->corner_places, .face_groups = texture->face_groups});
   EXPECT_EQ(drawing.group_sizes(), (std::vector<std::size_t>{0, 6, 6, 6}));
-  TriangleMesh mesh = drawing.triangle_mesh(model.points());
-  mesh.textures = texture_ranges(*texture, drawing.group_sizes());
-  const OffscreenContext context;
-  const auto renderer = make_opengl_renderer();
-  renderer->add(mesh);
-  Camera camera;
-  camera.angles = named_view("front");
-  camera.projection = Projection::Orthographic;
-  Box box;
-  box.add(glm::dvec3(0, 0, 0));
-  box.add(glm::dvec3(3, 1, 0));
-  const Picture picture = renderer->take_picture(camera.fitted_to(box, 3, 0), 300, 100);
+  const Picture picture = front_picture(model, 3);
   const auto red = picture.at(50, 50);
   const auto green = picture.at(150, 50);
   const auto clay = picture.at(250, 50);

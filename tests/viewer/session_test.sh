@@ -45,6 +45,14 @@ keys() {
   sleep 0.3
   xdotool key --delay 120 "$@"
 }
+quit() {
+  keys ctrl+q
+  for i in $(seq 100); do
+    kill -0 "$process" 2>/dev/null || break
+    sleep 0.1
+  done
+  wait "$process"
+}
 keys n KP_1 Home 3
 xdotool mousemove 640 400 click 1
 keys e 1 Return
@@ -56,13 +64,7 @@ for i in $(seq 50); do
   [ ! -e "$folder/lattice_bent.json" ] || break
   sleep 0.1
 done
-keys ctrl+q
-
-for i in $(seq 100); do
-  kill -0 "$process" 2>/dev/null || break
-  sleep 0.1
-done
-wait "$process"
+quit
 
 fail() {
   echo "session_test.sh: $1" >&2
@@ -106,12 +108,7 @@ for attempt in $(seq 10); do
   sleep 1
 done
 [ -e "$folder/lattice_bent.json" ] || fail "the session that crashed is not recovered"
-keys ctrl+q
-for i in $(seq 100); do
-  kill -0 "$process" 2>/dev/null || break
-  sleep 0.1
-done
-wait "$process"
+quit
 for left in "$journal" "$journal.2"; do
   [ ! -e "$left" ] || fail "$left is still there"
 done
