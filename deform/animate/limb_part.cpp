@@ -3,36 +3,20 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numeric>
 
 #include "lattice/build/offsets.h"
+#include "lattice/core/disjoint_sets.h"
 
 namespace espalier {
 namespace {
 
 using Net = std::vector<std::array<std::int32_t, 2>>;
 
-/// Sets of points that edges join.
-class JoinedPoints {
- public:
-  explicit JoinedPoints(std::size_t n) : parents_(n) {
-    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
+void join(std::span<const std::array<std::int32_t, 2>> net, DisjointSets& points) {
+  for (const auto& [a, b] : net) {
+    points.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
   }
-  std::size_t set_of(std::size_t i) {
-    while (parents_[i] != i) {
-      i = parents_[i] = parents_[parents_[i]];
-    }
-    return i;
-  }
-  void join(std::span<const std::array<std::int32_t, 2>> net) {
-    for (const auto& [a, b] : net) {
-      parents_[set_of(static_cast<std::size_t>(a))] = set_of(static_cast<std::size_t>(b));
-    }
-  }
-
- private:
-  std::vector<std::size_t> parents_;
-};
+}
 
 /// A net and the plane through a joint.
 class CutNet {
@@ -68,10 +52,10 @@ class CutNet {
   [[nodiscard]] double radius(std::size_t n) const { return n == 0 ? 0 : distances_[n - 1]; }
 
   /// What hangs together without the first n crossing edges.
-  [[nodiscard]] JoinedPoints without(std::size_t n) const {
-    JoinedPoints joined(n_points_);
-    joined.join(whole_);
-    joined.join(std::span(crossing_).subspan(n));
+  [[nodiscard]] DisjointSets without(std::size_t n) const {
+    DisjointSets joined(n_points_);
+    join(whole_, joined);
+    join(std::span(crossing_).subspan(n), joined);
     return joined;
   }
 
@@ -114,18 +98,18 @@ LimbPart limb_part(std::span<const glm::dvec3> points,
   std::size_t enough = cut.n_crossing();
   while (too_few < enough) {
     const std::size_t n = (too_few + enough) / 2;
-    JoinedPoints joined = cut.without(n);
-    if (joined.set_of(beyond) == joined.set_of(before)) {
+    DisjointSets joined = cut.without(n);
+    if (joined.first(beyond) == joined.first(before)) {
       too_few = n + 1;
     } else {
       enough = n;
     }
   }
   LimbPart part{std::vector<double>(points.size(), 0.0), 0, cut.radius(enough)};
-  JoinedPoints joined = cut.without(enough);
-  const std::size_t limb = joined.set_of(beyond);
+  DisjointSets joined = cut.without(enough);
+  const std::size_t limb = joined.first(beyond);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (joined.set_of(i) == limb) {
+    if (joined.first(i) == limb) {
       part.shares[i] = 1;
       ++part.n_parted;
     } else if (!cut.is_beyond(i) && part.radius > 0) {

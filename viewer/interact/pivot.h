@@ -19,7 +19,7 @@ namespace espalier::viewer {
 [[nodiscard]] glm::dvec3 middle_of(std::span<const glm::dvec3> points, const Selection& some);
 
 /// For each point the middle of the island that it is in, or that the nearest point of an island is
-/// in if it is in none. islands: at least one; points: #vertices. O(#points · #chosen).
+/// in if it is in none. islands: at least one; points: #vertices. O(#points not chosen · #chosen).
 [[nodiscard]] std::vector<glm::dvec3> island_pivots(std::span<const glm::dvec3> points,
                                                     const std::vector<Selection>& islands);
 
